@@ -1,0 +1,221 @@
+"""Marching through time: the plant that a navigator steers (P-14, P-15)."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magwire.engine.feed import Feed
+from magwire.engine.record import Record, Totals
+from magwire.engine.sampling import SAMPLINGS, mismatch, sample
+from magwire.engine.status import Status
+from magwire.engine.system import System
+from magwire.errors import InputError, positive
+from magwire.field import FieldSource
+from magwire.kernels.arrays import Field
+from magwire.kernels.guide import find_mouth, place_held
+from magwire.kernels.march import Plan, Tally, march
+from magwire.kernels.newton import CONVERGED, Outcome, copy_state
+from magwire.kernels.observe import observe
+
+Array = NDArray[np.float64]
+
+
+class March:
+    """A wire on its way into the lumen, one time step after the other.
+
+    Parameters
+    ----------
+    system
+        Wire, lumen and wall.
+    source
+        The outside field.
+    feed
+        Course of the guide.
+    time_step
+        dt [s].
+    inertia
+        Without it the steps are equilibria: the quasi-static march.
+
+    Attributes
+    ----------
+    step, steps
+        Time steps done, and to do in all.
+    status, message
+        How the last step ended; what happened and what to try if it failed.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        source: FieldSource,
+        feed: Feed,
+        *,
+        time_step: float,
+        inertia: bool = True,
+    ) -> None:
+        self.system = system
+        self.source = source
+        self.time_step = positive("Simulation", "time_step", time_step, "s")
+        if feed.largest > system.wire.length * (1.0 + 1e-9):
+            raise InputError(
+                f"Input distance of Feed must be at most the wire's length "
+                f"{system.wire.length:.6g} m; received {feed.largest:.6g} m."
+            )
+        self.steps = max(1, int(np.ceil(feed.duration / time_step - 1e-9)))
+        ends = np.minimum(np.arange(self.steps + 1) * time_step, feed.duration)
+        fed = np.minimum(feed.at(ends), system.wire.length)
+        self._plan = Plan(
+            feed=fed / system.wire.length,
+            twist=feed.twist_at(ends),
+            time_step=time_step,
+            damping=system.damping,
+            inertia=inertia,
+        )
+        self.step = 0
+        self.status = Status.CONVERGED
+        self.message = ""
+        self._state = system.new_state()
+        self._velocity = np.zeros_like(self._state.q)
+        self._work = system.new_work()
+        self._wall = system.new_wall()
+        self._limits = system.limits()
+        self._tally = Tally(np.zeros(4), np.array([0.0, 0.0, -1.0]))
+        self._field = self._start()
+        self._seen = np.zeros(4)
+        self._clearance = float("inf")
+        self._began = time.perf_counter()
+
+    def _start(self) -> Field:
+        """Put the wire on the guide at the first feed and sample the field there."""
+        rod, guide = self.system.rod, self.system.guide
+        tip = self.system.wire.nodes
+        place_held(rod, guide, self._state, 0, tip, self._plan.feed[0], self._plan.twist[0])
+        self._held = tip
+        return sample(self.system, self.source, self._state)
+
+    def advance(self, steps: int) -> bool:
+        """Do at most this many more time steps; whether all of them converged."""
+        last = min(self.step + steps, self.steps)
+        while self.step < last:
+            done, outcome = self._some(last) if self.source.affine else self._one()
+            self.step += done
+            if outcome.status != CONVERGED:
+                self.status = Status(outcome.status)
+                self.message = (
+                    f"The step to {self._fed(self.step + 1) * 1e3:.4g} mm of feed did not "
+                    f"converge, even when cut into {2**6} parts: {self.status.remedy}."
+                )
+                return False
+        return True
+
+    def _some(self, last: int) -> tuple[int, Outcome]:
+        """Steps up to ``last`` without leaving compiled code."""
+        done, self._held, outcome = march(
+            self._model(),
+            self.system.guide,
+            self._state,
+            self._velocity,
+            self._work,
+            self._limits,
+            self._plan,
+            self.step,
+            last,
+            self._held,
+            self._tally,
+        )
+        return done, outcome
+
+    def _one(self) -> tuple[int, Outcome]:
+        """One step in a field that is sampled until the wire stays where it was sampled."""
+        before, velocity = self.system.new_state(), self._velocity.copy()
+        held = self._held
+        copy_state(self._state, before, held)
+        tally = Tally(self._tally.counts.copy(), self._tally.forces.copy())
+        for _ in range(SAMPLINGS):
+            done, outcome = self._some(self.step + 1)
+            if outcome.status != CONVERGED:
+                return done, outcome
+            field = sample(self.system, self.source, self._state)
+            if mismatch(self.system, self._field, field, self._held) <= self._limits.tolerance:
+                return done, outcome
+            self._field = field
+            copy_state(before, self._state, held)
+            self._velocity[:] = velocity
+            self._held = held
+            self._tally.counts[0] = tally.counts[0]
+            self._tally.forces[:] = tally.forces
+        return 0, Outcome(Status.TOO_MANY_ITERATIONS, 0, 0, float("inf"), 0)
+
+    def _model(self) -> tuple[object, ...]:
+        return (self.system.rod, self._field, self._wall, self.system.walls)
+
+    def _fed(self, step: int) -> float:
+        """Feed at the end of a step [m]."""
+        return float(self._plan.feed[min(step, self.steps)]) * self.system.wire.length
+
+    @property
+    def totals(self) -> Totals:
+        """Sums over all steps so far."""
+        counts, forces = self._tally
+        scales = self.system.scales
+        steps = int(counts[0])
+        return Totals(
+            max_tip_force=float(forces[0]) * scales.force,
+            mean_tip_force=float(forces[1]) / max(steps, 1) * scales.force,
+            first_contact_feed=float(forces[2]) * scales.length if forces[2] >= 0 else float("nan"),
+            smallest_clearance=self._clearance,
+            steps=steps,
+            newton_iterations=int(counts[1]),
+            factorisations=int(counts[2]),
+            retries=int(counts[3]),
+            wall_time=time.perf_counter() - self._began,
+        )
+
+    def record(self) -> Record:
+        """The state as it is now."""
+        system, state = self.system, self._state
+        scales = system.scales
+        feed = float(self._plan.feed[self.step])
+        twist = float(self._plan.twist[self.step])
+        mouth = find_mouth(system.rod, system.guide, feed)
+        place_held(system.rod, system.guide, state, 0, mouth.held, feed, twist)
+        nodes = len(state.q)
+        forces, clearance = np.zeros((nodes, 3)), np.zeros(nodes)
+        between, stable = observe(self._model(), state, mouth, self._work, forces, clearance)
+        clearance[: mouth.held + 1] = np.nan
+        free = clearance[mouth.held + 1 :]
+        if mouth.held < nodes - 1:
+            least = min(float(free.min()), between) * scales.length
+            self._clearance = min(self._clearance, least)
+        counts = self._tally.counts
+        new_steps = counts[0] - self._seen[0]
+        iterations = (counts[1] - self._seen[1]) / new_steps if new_steps else 0.0
+        self._seen = counts.copy()
+        tip = state.q[-1:, :3] * scales.length
+        return Record(
+            time=self.step * self.time_step,
+            feed=feed * scales.length,
+            position=state.q[1:, :3] * scales.length,
+            flux_density=self.source.at(tip)[0][0],
+            contact_force=forces[1:] * scales.force,
+            clearance=clearance[1:] * scales.length,
+            clearance_midpoint=between * scales.length if np.isfinite(between) else float("nan"),
+            tip_force=float(np.linalg.norm(forces[-1])) * scales.force,
+            tip_offset=float(system.lumen.offset(tip)[0]),
+            newton_iterations=float(iterations),
+            stable=bool(stable),
+            totals=self.totals,
+        )
+
+    def records(self, every: int) -> Iterator[Record]:
+        """March to the end, with a record at the start and after every so many steps."""
+        yield self.record()
+        while self.step < self.steps:
+            converged = self.advance(every)
+            yield self.record()
+            if not converged:
+                return

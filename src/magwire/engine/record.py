@@ -1,0 +1,126 @@
+"""What the engine hands to whoever records a run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Scales:
+    """The paper's scales (P-17, P-18).
+
+    Attributes
+    ----------
+    length
+        The wire's length L [m].
+    force
+        EI / L^2 [N].
+    flux_density
+        EI / (M L^2) [T]; NaN for a wire without magnetisation.
+    """
+
+    length: float
+    force: float
+    flux_density: float
+
+
+@dataclass(frozen=True)
+class RunInfo:
+    """What is known of a run before its first step.
+
+    Attributes
+    ----------
+    nodes
+        Number of nodes of the wire.
+    scales
+        Scales that make the paper's numbers.
+    centreline, lumen_radius, lumen_branch
+        The lumen as drawn: points, shape (q, 3) [m]; radius, shape (q,) [m]; branch, shape (q,).
+    title, scenario
+        Title, and the whole scenario as TOML ("" for a run that was set up in Python).
+    """
+
+    nodes: int
+    scales: Scales
+    centreline: Array
+    lumen_radius: Array
+    lumen_branch: NDArray[np.int64]
+    title: str = ""
+    scenario: str = ""
+
+
+@dataclass(frozen=True)
+class Totals:
+    """What a run adds up over all its steps, recorded or not.
+
+    Attributes
+    ----------
+    max_tip_force, mean_tip_force
+        Over all steps so far [N].
+    first_contact_feed
+        Feed at which any node first felt the wall [m]; NaN if none did.
+    smallest_clearance
+        Over all recorded states, nodes and midpoints [m].
+    steps, newton_iterations, factorisations, retries
+        Counts so far.
+    wall_time
+        Time spent since the start of the run [s].
+    """
+
+    max_tip_force: float = 0.0
+    mean_tip_force: float = 0.0
+    first_contact_feed: float = float("nan")
+    smallest_clearance: float = float("inf")
+    steps: int = 0
+    newton_iterations: int = 0
+    factorisations: int = 0
+    retries: int = 0
+    wall_time: float = 0.0
+
+
+@dataclass(frozen=True)
+class Record:
+    """The state of the wire at one recorded time.
+
+    Attributes
+    ----------
+    time, feed
+        Simulated time [s] and fed length [m].
+    position
+        Nodes, proximal first, shape (nodes, 3) [m].
+    flux_density
+        At the tip, shape (3,) [T].
+    contact_force
+        Force of the wall on each node, shape (nodes, 3) [N].
+    clearance
+        Distance of each node to the wall by the scenario's wall convention, shape (nodes,) [m];
+        NaN for nodes on the guide.
+    clearance_midpoint
+        The smallest of the midpoints between nodes [m]; NaN if all are on the guide.
+    tip_force, tip_offset
+        Magnitude of the wall force on the tip node [N]; distance of the tip from the centreline [m].
+    newton_iterations
+        Per step, mean since the record before.
+    stable
+        Whether the tangent stiffness of the state is positive definite.
+    totals
+        Sums over all steps so far.
+    """
+
+    time: float
+    feed: float
+    position: Array
+    flux_density: Array
+    contact_force: Array
+    clearance: Array
+    clearance_midpoint: float
+    tip_force: float
+    tip_offset: float
+    newton_iterations: float
+    stable: bool
+    totals: Totals = field(default_factory=Totals)

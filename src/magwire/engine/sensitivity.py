@@ -1,0 +1,176 @@
+"""First-order sensitivities of an equilibrium, from its tangent stiffness (P-21).
+
+At an equilibrium the gradient g of the energy vanishes, so an input u moves the unknowns q by
+K dq/du = -dg/du. The gradient is linear in the field, and the mouth's element linear in the
+inverse of its part, so the right-hand sides come from differences of gradients without error.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import solve_banded
+
+from magwire.engine.system import System
+from magwire.errors import one_of
+from magwire.kernels.arrays import Field, Motion, Mouth, State, Work
+from magwire.kernels.assembly import FIRST, assemble
+from magwire.kernels.band import WIDTH, factor, solve
+
+Array = NDArray[np.float64]
+Output = Literal["tip", "positions", "tip_direction"]
+Input = Literal["field", "gradient", "feed", "twist"]
+
+
+@dataclass(frozen=True)
+class Point:
+    """An equilibrium as the kernels hold it."""
+
+    system: System
+    field: Field
+    state: State
+    mouth: Mouth
+
+
+def derivative(point: Point, output: Output, wrt: Input) -> Array:
+    """Derivative of an output of an equilibrium by an input; see ``Equilibrium.sensitivity``."""
+    one_of("sensitivity", "output", output, get_args(Output))
+    one_of("sensitivity", "wrt", wrt, get_args(Input))
+    system, held = point.system, point.mouth.held
+    length = system.wire.length
+    loads, shape, unit = _loads(point, wrt)
+    moved = _solve(point, loads)  # [inputs, nodes + 1, 4], scaled
+    if wrt == "feed":
+        moved[:, : held + 1, :3] = system.guide.direction
+    elif wrt == "twist":
+        moved[:, :held, 3] = 1.0
+    positions = moved[:, 1:, :3] * (length / unit)
+    if output == "positions":
+        result = np.moveaxis(positions, 0, -1)
+    elif output == "tip":
+        result = positions[:, -1].T
+    else:
+        edge = (point.state.q[-1] - point.state.q[-2])[:3] * length
+        size = np.linalg.norm(edge)
+        across = np.eye(3) - np.outer(edge, edge) / size**2
+        result = across @ (positions[:, -1] - positions[:, -2]).T / size
+    return result.reshape(*result.shape[:-1], *shape)
+
+
+def _loads(point: Point, wrt: Input) -> tuple[Array, tuple[int, ...], float]:
+    """Derivatives of the gradient by the inputs, shape [inputs, nodes + 1, 4]; their shape; unit.
+
+    The unit is what one scaled input is worth in SI.
+    """
+    system, state = point.system, point.state
+    work = system.new_work()
+    if wrt == "field":
+        base = point.field.flux_density
+        fields = [point.field._replace(flux_density=base + axis) for axis in np.eye(3)]
+        return _differences(point, fields, work), (3,), 1.0
+    if wrt == "gradient":
+        middle = 0.5 * (state.q[1:, :3] + state.q[:-1, :3])
+        fields = []
+        for i, j in np.ndindex(3, 3):
+            unit = np.zeros((3, 3))
+            unit[i, j] = 1.0
+            here = _here(point.field, middle)
+            fields.append(
+                Field(here + middle @ unit.T, point.field.gradient + unit.ravel(), middle, False)
+            )
+        return _differences(point, fields, work), (3, 3), 1.0 / system.wire.length
+    band = _band(point, work)
+    lead = np.zeros(FIRST)
+    if wrt == "twist":
+        lead[3] = 1.0
+        return _coupling(band, lead, point)[None], (), 1.0
+    lead[0:3] = lead[4:7] = system.guide.direction
+    load = _coupling(band, lead, point)
+    if system.release == "sliding":
+        load += _by_part(point, work) / system.rod.cell[point.mouth.held]
+    return load[None], (), system.wire.length
+
+
+def _here(field: Field, middle: Array) -> Array:
+    """The affine field at the middle of each edge [T]."""
+    slope = field.gradient.reshape(-1, 3, 3)
+    result: Array = field.flux_density + np.einsum("eij,ej->ei", slope, middle - field.origin)
+    return result
+
+
+def _gradient(point: Point, field: Field, mouth: Mouth, work: Work) -> Array:
+    """Gradient of the energy, scaled, shape [nodes + 1, 4]."""
+    system = point.system
+    model = (system.rod, field, system.new_wall(), system.walls)
+    still = Motion(0.0, work.target)
+    assemble(model, point.state, mouth, still, work.gradient, work.no_band)
+    return work.gradient.copy()
+
+
+def _differences(point: Point, fields: list[Field], work: Work) -> Array:
+    base = _gradient(point, point.field, point.mouth, work)
+    return np.stack([_gradient(point, field, point.mouth, work) - base for field in fields])
+
+
+def _by_part(point: Point, work: Work) -> Array:
+    """Derivative of the gradient by the part of the mouth's cell; it is linear in its inverse."""
+    part = point.mouth.fraction
+    there = _gradient(point, point.field, Mouth(point.mouth.held, 2.0 * part), work)
+    here = _gradient(point, point.field, point.mouth, work)
+    return (there - here) * 2.0 / part
+
+
+def _band(point: Point, work: Work) -> Array:
+    """Tangent stiffness in the band's layout."""
+    system = point.system
+    model = (system.rod, point.field, system.new_wall(), system.walls)
+    still = Motion(0.0, work.target)
+    assemble(model, point.state, point.mouth, still, work.gradient, work.band)
+    return work.band
+
+
+def _coupling(band: Array, lead: Array, point: Point) -> Array:
+    """Load of the guide's displacements on the free unknowns, shape [nodes + 1, 4]."""
+    nodes, held = len(point.state.q), point.mouth.held
+    rows = np.zeros(4 * (nodes - held + 1))
+    for column, value in enumerate(lead):
+        rows[column : column + WIDTH] += value * band[column]
+    rows[:FIRST] = 0.0
+    load = np.zeros((nodes, 4))
+    load[held - 1 :] = rows.reshape(-1, 4)
+    return load
+
+
+def _solve(point: Point, loads: Array) -> Array:
+    """Displacements -K^-1 load for every load, shape [inputs, nodes + 1, 4]."""
+    nodes, held = len(point.state.q), point.mouth.held
+    last = 4 * (nodes - held + 1) - 1
+    moved = np.zeros_like(loads)
+    if held == nodes - 1:
+        return moved
+    band = _band(point, point.system.new_work())[: last + 1]
+    whole = _both_triangles(band[FIRST:last])
+    rows = -loads[:, held - 1 :].reshape(len(loads), -1)
+    if factor(band, FIRST, last) < 0:
+        for row in rows:
+            solve(band, row, FIRST, last)
+    else:  # an unstable equilibrium has sensitivities, too
+        half = WIDTH - 1
+        rows[:, FIRST:last] = solve_banded((half, half), whole, rows[:, FIRST:last].T).T
+    rows[:, :FIRST] = 0.0
+    rows[:, last:] = 0.0
+    moved[:, held - 1 :] = rows.reshape(len(loads), -1, 4)
+    return moved
+
+
+def _both_triangles(lower: Array) -> Array:
+    """A symmetric band, columns of its lower triangle as rows, as ``solve_banded`` wants it."""
+    count = len(lower)
+    whole = np.zeros((2 * WIDTH - 1, count))
+    for k in range(WIDTH):
+        whole[WIDTH - 1 + k, : count - k] = lower[: count - k, k]
+        whole[WIDTH - 1 - k, k:] = lower[: count - k, k]
+    return whole

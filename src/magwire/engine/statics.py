@@ -1,0 +1,215 @@
+"""Equilibria at a given feed and field, with their certificate (P-16)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magwire.engine.sampling import SAMPLINGS, mismatch, sample
+from magwire.engine.sensitivity import Input, Output, Point, derivative
+from magwire.engine.status import Status
+from magwire.engine.system import SHARP_TOLERANCE, System
+from magwire.errors import ConvergenceError, finite, within
+from magwire.field import FieldSource
+from magwire.kernels.arrays import Motion, State
+from magwire.kernels.guide import find_mouth, place_held
+from magwire.kernels.hinge import transport
+from magwire.kernels.march import Plan, Tally, march
+from magwire.kernels.newton import copy_state, newton
+from magwire.kernels.observe import observe
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """A wire at rest, and what certifies it (P-16).
+
+    Attributes
+    ----------
+    feed, twist
+        Length of wire past the entrance [m]; angle of the guide [rad].
+    positions
+        Nodes, proximal first, shape (nodes, 3) [m].
+    wall_force
+        Force of the wall on each node, shape (nodes, 3) [N].
+    clearance
+        Of each node to the wall, shape (nodes,) [m]; NaN on the guide.
+    stable
+        Whether the tangent stiffness is positive definite. An unstable equilibrium is one that
+        a real wire leaves.
+    residual
+        Largest force left over on a free unknown [N].
+    iterations
+        Newton iterations taken.
+    """
+
+    feed: float
+    twist: float
+    positions: Array
+    wall_force: Array
+    clearance: Array
+    stable: bool
+    residual: float
+    iterations: int
+    point: Point = field(repr=False)
+
+    @property
+    def tip(self) -> Array:
+        """Position of the tip, shape (3,) [m]."""
+        result: Array = self.positions[-1]
+        return result
+
+    @property
+    def tip_direction(self) -> Array:
+        """Unit tangent of the last edge, shape (3,)."""
+        edge = self.positions[-1] - self.positions[-2]
+        result: Array = edge / np.linalg.norm(edge)
+        return result
+
+    @property
+    def tip_force(self) -> float:
+        """Size of the wall force on the tip node [N]."""
+        return float(np.linalg.norm(self.wall_force[-1]))
+
+    def sensitivity(self, output: Output, *, wrt: Input) -> Array:
+        """How the equilibrium moves with an input, to first order.
+
+        Parameters
+        ----------
+        output
+            ``"tip"``, shape (3,) [m]; ``"positions"``, shape (nodes, 3) [m]; or
+            ``"tip_direction"``, shape (3,).
+        wrt
+            ``"field"``, shape (3,) [T]; ``"gradient"``, shape (3, 3) [T/m], dB_i/dx_j about the
+            origin; ``"feed"`` [m]; or ``"twist"`` [rad].
+
+        Returns
+        -------
+        array
+            Shape of the output followed by the shape of the input.
+
+        Raises
+        ------
+        InputError
+            If output or input is none of these.
+
+        Notes
+        -----
+        (P-21): K dq/du = -d(grad E)/du with the tangent stiffness K.
+        """
+        return derivative(self.point, output, wrt)
+
+
+def find_equilibrium(
+    system: System,
+    source: FieldSource,
+    feed: float,
+    *,
+    start: Equilibrium | None = None,
+    twist: float = 0.0,
+) -> Equilibrium:
+    """Static equilibrium at a fixed feed and field; see ``Simulation.equilibrium``."""
+    feed = within("Simulation", "feed", feed, "m", low=0.0, high=system.wire.length)
+    twist = finite("Simulation", "twist", twist, "rad")
+    part = feed / system.wire.length
+    mouth = find_mouth(system.rod, system.guide, part)
+    held = mouth.held
+    if start is None:
+        state = lay_on_centreline(system, held, part, twist)
+    else:
+        state = follow(system, source, start, part, twist)
+    place_held(system.rod, system.guide, state, 0, held, part, twist)
+    wall, work = system.new_wall(), system.new_work()
+    limits = system.limits(SHARP_TOLERANCE)
+    iterations, residual = 0, 0.0
+    samples = sample(system, source, state)
+    for _ in range(SAMPLINGS if held < system.wire.nodes else 0):
+        model = (system.rod, samples, wall, system.walls)
+        outcome = newton(model, state, mouth, Motion(0.0, work.target), work, limits)
+        iterations += outcome.iterations
+        residual = outcome.residual
+        if outcome.status != Status.CONVERGED:
+            raise _failure(system, feed, Status(outcome.status).remedy, state)
+        used, samples = samples, sample(system, source, state)
+        if source.affine or mismatch(system, used, samples, held) <= limits.tolerance:
+            break
+    else:
+        if held < system.wire.nodes:
+            raise _failure(system, feed, "the field varies too strongly along the wire", state)
+    nodes = len(state.q)
+    forces, clearance = np.zeros((nodes, 3)), np.full(nodes, np.nan)
+    model = (system.rod, samples, wall, system.walls)
+    _, stable = observe(model, state, mouth, work, forces, clearance)
+    return Equilibrium(
+        feed=feed,
+        twist=twist,
+        positions=state.q[1:, :3] * system.scales.length,
+        wall_force=forces[1:] * system.scales.force,
+        clearance=clearance[1:] * system.scales.length,
+        stable=bool(stable),
+        residual=residual * system.scales.force,
+        iterations=iterations,
+        point=Point(system, samples, state, mouth),
+    )
+
+
+def lay_on_centreline(system: System, held: int, feed: float, twist: float) -> State:
+    """The wire laid along the centreline of the first branch, untwisted; feed in wire lengths."""
+    state = system.new_state()
+    tip = len(state.q) - 1
+    place_held(system.rod, system.guide, state, 0, tip, feed, twist)
+    past = system.rod.station - (system.rod.station[-1] - feed)
+    free = np.arange(held + 1, tip + 1)
+    if len(free) > 0 and system.lumen.branches:
+        curve = system.lumen.branches[0].curve
+        state.q[free, :3] = curve.at(past[free] * system.wire.length)[:, :3] / system.wire.length
+    for i in range(held, tip):  # frames carried along the wire: no edge is twisted
+        edge = state.q[i + 1, :3] - state.q[i, :3]
+        state.length[i] = np.linalg.norm(edge)
+        state.tangent[i] = edge / state.length[i]
+        before = tuple(state.director[i - 1]), tuple(state.tangent[i - 1])
+        state.director[i] = transport(*before, tuple(state.tangent[i]))
+    return state
+
+
+def follow(
+    system: System, source: FieldSource, start: Equilibrium, feed: float, twist: float
+) -> State:
+    """Feed the wire from an equilibrium on, by equilibria; feed in wire lengths."""
+    state = system.new_state()
+    copy_state(start.point.state, state, 1)
+    state.director[:1], state.q[:1] = start.point.state.director[:1], start.point.state.q[:1]
+    before = start.feed / system.wire.length
+    steps = math.ceil(abs(feed - before) / (0.5 * float(system.rod.rest.min())) - 1e-9)
+    plan = Plan(
+        feed=np.linspace(before, feed, steps + 1),
+        twist=np.linspace(start.twist, twist, steps + 1),
+        time_step=1.0,
+        damping=0.0,
+        inertia=False,
+    )
+    velocity, held = np.zeros_like(state.q), start.point.mouth.held
+    work, wall, tally = system.new_work(), system.new_wall(), Tally(np.zeros(4), np.zeros(3))
+    samples = sample(system, source, state)
+    for k in range(steps):
+        model = (system.rod, samples, wall, system.walls)
+        done, held, outcome = march(
+            model, system.guide, state, velocity, work, system.limits(), plan, k, k + 1, held, tally
+        )
+        if done == 0:
+            reached = float(plan.feed[k]) * system.wire.length
+            raise _failure(system, reached, Status(outcome.status).remedy, state)
+        if not source.affine:
+            samples = sample(system, source, state)
+    return state
+
+
+def _failure(system: System, feed: float, reason: str, state: State) -> ConvergenceError:
+    return ConvergenceError(
+        f"The equilibrium at {feed * 1e3:.4g} mm of feed was not found: {reason}.",
+        state.q[1:, :3] * system.scales.length,
+    )

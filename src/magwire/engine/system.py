@@ -1,0 +1,168 @@
+"""A wire, its lumen and its wall as scaled arrays for the kernels (P-17)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magwire.contact import Barrier
+from magwire.engine.record import Scales
+from magwire.errors import array, nonnegative, one_of
+from magwire.kernels.arrays import Guide, Rod, State, Wall, Work
+from magwire.kernels.band import WIDTH
+from magwire.kernels.newton import Limits
+from magwire.lumen import Lumen
+from magwire.wire import Mesh, Wire, lay_out
+
+Array = NDArray[np.float64]
+Release = Literal["sliding", "node"]
+
+TOLERANCE = 1e-6  # force residual of a time step, in EI/L^2
+SHARP_TOLERANCE = 1e-9  # force residual of an equilibrium, in EI/L^2
+ITERATIONS = 60
+FIRST_SHIFT = 10.0  # first regularisation, in EI/(rho A L^4)
+
+
+@dataclass(frozen=True)
+class System:
+    """What is simulated, apart from feed and field.
+
+    Parameters
+    ----------
+    wire, lumen, contact
+        The wire, the lumen and the wall's barrier.
+    damping
+        mu [1/s] (P-14).
+    gravity
+        Acceleration, shape (3,) [m/s^2].
+    fluid_density
+        Of what fills the lumen [kg/m^3]; its buoyancy acts against gravity.
+    release
+        ``"sliding"``: the bending element at the guide's mouth counts with the part that is past
+        the entrance; ``"node"``: node by node, as in the paper (P-15).
+    """
+
+    wire: Wire
+    lumen: Lumen
+    contact: Barrier
+    damping: float = 0.01
+    gravity: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    fluid_density: float = 0.0
+    release: Release = "sliding"
+
+    def __post_init__(self) -> None:
+        nonnegative("Simulation", "damping", self.damping, "1/s")
+        nonnegative("Simulation", "fluid_density", self.fluid_density, "kg/m^3")
+        gravity = array("Simulation", "gravity", self.gravity, (3,), "m/s^2")
+        object.__setattr__(self, "gravity", tuple(gravity.tolist()))
+        one_of("Simulation", "release", self.release, ("sliding", "node"))
+
+    @cached_property
+    def scales(self) -> Scales:
+        """Length L, force EI/L^2 and flux density EI/(M L^2)."""
+        length, stiffness = self.wire.length, self.wire.bending_stiffness
+        moment = self.wire.moment_per_length
+        flux = stiffness / (moment * length**2) if moment > 0.0 else float("nan")
+        return Scales(length=length, force=stiffness / length**2, flux_density=flux)
+
+    @cached_property
+    def mesh(self) -> Mesh:
+        """The wire on its nodes, in SI units."""
+        return lay_out(self.wire)
+
+    @cached_property
+    def rod(self) -> Rod:
+        """The wire for the kernels, with the ghost node in front."""
+        mesh, length = self.mesh, self.wire.length
+        energy = self.wire.bending_stiffness / length
+        inertia = length**2 / energy
+        pull = (mesh.mass - self.fluid_density * mesh.volume)[:, None] * np.array(self.gravity)
+        cell = np.diff(np.concatenate(([0.0], mesh.cell_end)))
+        radius = mesh.radius if self.contact.wall == "surface" else np.zeros_like(mesh.radius)
+        return Rod(
+            station=_ghost(mesh.station, -mesh.edge_length[0]) / length,
+            cell_end=_ghost(mesh.cell_end) / length,
+            rest=_ghost(mesh.edge_length, mesh.edge_length[0]) / length,
+            stretch=_ghost(mesh.stretching_stiffness) * length / energy,
+            bend=_ghost(mesh.bending_stiffness) / energy,
+            twist=_ghost(mesh.twisting_stiffness) / energy,
+            rest_curvature=_ghost(mesh.rest_turn),
+            moment=_ghost(mesh.moment) / energy,
+            mass=_ghost(mesh.mass) * inertia,
+            inertia=_ghost(mesh.axial_inertia) / energy,
+            weight=_ghost(pull) * length / energy,
+            cell=_ghost(cell) / length,
+            offset=_ghost(radius) / length,
+        )
+
+    @cached_property
+    def guide(self) -> Guide:
+        """The guide line in front of the entrance."""
+        direction = np.asarray(self.lumen.direction, dtype=np.float64)
+        axis = np.zeros(3)
+        axis[np.argmin(np.abs(direction))] = 1.0
+        director = np.cross(direction, axis)
+        return Guide(
+            entrance=np.asarray(self.lumen.entrance, dtype=np.float64) / self.wire.length,
+            direction=direction,
+            director=director / np.linalg.norm(director),
+            sliding=self.release == "sliding",
+        )
+
+    @cached_property
+    def walls(self) -> object:
+        """The lumen for the gap kernels, in units of the wire's length."""
+        return self.lumen.arrays(self.wire.length)
+
+    def limits(self, tolerance: float = TOLERANCE) -> Limits:
+        """When Newton's method stops; never below what round-off allows on this mesh."""
+        body = self.wire.body
+        inertia = body.density * body.area * self.wire.length**4 / body.bending_stiffness
+        finest = float(self.mesh.edge_length.min()) / self.wire.length
+        floor = 4.0 * np.finfo(np.float64).eps / finest**3
+        return Limits(max(tolerance, floor), ITERATIONS, FIRST_SHIFT / inertia)
+
+    def new_wall(self) -> Wall:
+        """The barrier, with nothing known yet of the gap near any point."""
+        length, stiffness = self.wire.length, self.wire.bending_stiffness
+        return Wall(
+            stiffness=self.contact.stiffness * length**4 / stiffness,
+            gap=self.contact.activation_gap / length,
+            known=np.full((self.wire.nodes + 1, 4), -np.inf),
+        )
+
+    def new_state(self) -> State:
+        """A state with all arrays allocated and the wire behind the entrance."""
+        nodes = self.wire.nodes + 1
+        return State(
+            q=np.zeros((nodes, 4)),
+            tangent=np.tile(self.guide.direction, (nodes - 1, 1)),
+            length=self.rod.rest.copy(),
+            director=np.tile(self.guide.director, (nodes - 1, 1)),
+            twist=np.zeros(nodes),
+        )
+
+    def new_work(self) -> Work:
+        """Scratch arrays of the solver."""
+        nodes = self.wire.nodes + 1
+        rows = 4 * (nodes + 1)
+        return Work(
+            gradient=np.zeros((nodes, 4)),
+            band=np.zeros((rows, WIDTH)),
+            no_band=np.zeros((0, WIDTH)),
+            step=np.zeros(rows),
+            trial=self.new_state(),
+            spare=self.new_state(),
+            ahead=self.new_state(),
+            target=np.zeros((nodes, 4)),
+        )
+
+
+def _ghost(values: Array, first: float = 0.0) -> Array:
+    """Values with the ghost's own in front."""
+    head = np.full((1, *values.shape[1:]), first)
+    return np.ascontiguousarray(np.concatenate((head, values)))

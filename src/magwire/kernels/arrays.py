@@ -1,0 +1,110 @@
+"""The arrays that travel through the kernels, scaled by length L and force EI/L^2 (P-17).
+
+Nodes carry index 1 ... N; node 0 is a massless ghost behind the proximal end, so that the
+direction of the guide is an edge like any other (P-15). Edge i runs from node i to node i + 1.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class Rod(NamedTuple):
+    """A wire laid out on its mesh (P-4).
+
+    station [N+1] material coordinate of each node, 0 at the proximal end; cell_end [N+1] where
+    the node's Voronoi cell ends; rest, stretch [N] rest length and EA of each edge; bend, twist
+    [N+1] EI/l and GJ/l of each hinge; rest_curvature [N+1, 2] integrated over the cell;
+    moment [N, 3] of each edge; mass [N+1], inertia [N] of nodes and of edges about their axis;
+    weight [N+1, 3] gravity less buoyancy; cell, offset [N+1] length of wire that a node's contact
+    stands for, and what the wall keeps from the axis there (P-12).
+    """
+
+    station: Array
+    cell_end: Array
+    rest: Array
+    stretch: Array
+    bend: Array
+    twist: Array
+    rest_curvature: Array
+    moment: Array
+    mass: Array
+    inertia: Array
+    weight: Array
+    cell: Array
+    offset: Array
+
+
+class Guide(NamedTuple):
+    """The straight guide in front of the entrance: entrance [3], direction [3], director [3]."""
+
+    entrance: Array
+    direction: Array
+    director: Array
+    sliding: bool
+
+
+class Field(NamedTuple):
+    """Field samples of each edge: B_0 [N, 3], gradient [N, 9] by rows, where sampled [N, 3]."""
+
+    flux_density: Array
+    gradient: Array
+    origin: Array
+    uniform: bool
+
+
+class Wall(NamedTuple):
+    """Barrier stiffness and activation gap, and what is known of the gap near each node.
+
+    known [N+1, 4]: a point, and a distance by which one may move from there without crossing the
+    wall; nearer than that less the activation gap, no query is needed (P-8).
+    """
+
+    stiffness: float
+    gap: float
+    known: Array
+
+
+class State(NamedTuple):
+    """A configuration: q [N+1, 4] (x, y, z, theta), and what follows from it along its path.
+
+    tangent [N, 3], length [N], director [N, 3] (reference frame d1), twist [N+1] reference twist.
+    """
+
+    q: Array
+    tangent: Array
+    length: Array
+    director: Array
+    twist: Array
+
+
+class Mouth(NamedTuple):
+    """Where the guide ends: the last held node, the part of its cell that is past the entrance."""
+
+    held: int
+    fraction: float
+
+
+class Motion(NamedTuple):
+    """Inertia of a time step (P-14): (1 + mu dt)/dt^2, 0 in statics, and its target [N+1, 4]."""
+
+    factor: float
+    target: Array
+
+
+class Work(NamedTuple):
+    """Scratch arrays of the solver, allocated once; ``no_band`` has no rows."""
+
+    gradient: Array
+    band: Array
+    no_band: Array
+    step: Array
+    trial: State
+    spare: State
+    ahead: State
+    target: Array

@@ -1,0 +1,52 @@
+"""How far a step may go before a point could cross the wall (P-8).
+
+The gap is 1-Lipschitz, so a point may move by less than its gap. Repeating that along the step
+(conservative advancement) is an exact collision test that lets a point slide along the wall.
+"""
+
+from __future__ import annotations
+
+from magwire.kernels._jit import kernel
+from magwire.kernels.gap import gap_value
+from magwire.kernels.vectors import combine, norm, row, sub
+
+CAUTION = 0.9  # part of the safe distance that one hop uses
+CLOSEST = 0.1  # a step may shrink the clearance to this part of itself, not further
+HOPS = 200
+
+
+@kernel
+def travel(lumen, x, dx, offset, known, limit):
+    """Largest part of the step dx, at most ``limit``, that point x may take."""
+    length = norm(dx)
+    away = norm(sub(x, (known[0], known[1], known[2])))
+    if limit * length <= CAUTION * (known[3] - away - offset):
+        return limit
+    _, _, _, safe = gap_value(lumen, x[0], x[1], x[2])
+    start = safe - offset
+    known[0], known[1], known[2], known[3] = x[0], x[1], x[2], safe
+    part = 0.0
+    free = start
+    for _ in range(HOPS):
+        part += CAUTION * free / length
+        if part >= limit:
+            return limit
+        here = combine(1.0, x, part, dx)
+        _, _, _, safe = gap_value(lumen, here[0], here[1], here[2])
+        free = safe - offset
+        if free < CLOSEST * start:
+            return part
+    return part
+
+
+@kernel
+def allowed_part(rod, lumen, wall, q, step, held):
+    """Largest part of a step (rows of the band's layout) that keeps every node inside."""
+    part = 1.0
+    nodes = q.shape[0]
+    lead = 4 * (held - 1)
+    for i in range(held + 1, nodes):
+        r = 4 * i - lead
+        dx = (step[r], step[r + 1], step[r + 2])
+        part = travel(lumen, row(q, i), dx, rod.offset[i], wall.known[i], part)
+    return part

@@ -1,0 +1,157 @@
+"""Time steps one after the other, without leaving compiled code (P-14, P-15)."""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import NamedTuple
+
+from magwire.kernels._jit import kernel, part
+from magwire.kernels.arrays import Array, Motion
+from magwire.kernels.assembly import press, update_frames
+from magwire.kernels.collision import allowed_part
+from magwire.kernels.guide import change_held, find_mouth, place_held
+from magwire.kernels.newton import CONVERGED, Outcome, copy_state, newton
+from magwire.kernels.vectors import dot, row
+
+RETRIES = 6  # a step may be cut in half this many times
+
+
+class Plan(NamedTuple):
+    """Feed and twist of the guide at every step's end, shape [steps + 1] each; time step [s].
+
+    Without inertia the steps are equilibria one after the other (P-16).
+    """
+
+    feed: Array
+    twist: Array
+    time_step: float
+    damping: float
+    inertia: bool
+
+
+class Tally(NamedTuple):
+    """What a march adds up: counts [steps, Newton iterations, factorisations, retries] and
+    forces [largest tip force, sum of tip forces times steps, feed of first contact (-1: none)]."""
+
+    counts: Array
+    forces: Array
+
+
+@part
+def tip_force(model, state):
+    """Size of the wall force on the tip node (P-13)."""
+    rod, _, wall, lumen = model
+    tip = state.q.shape[0] - 1
+    _, _, pushed, _ = press(rod, lumen, wall, row(state.q, tip), tip)
+    return sqrt(dot(pushed, pushed))
+
+
+@part
+def predict(rod, lumen, wall, state, velocity, held, dt, work):
+    """Move the free unknowns on at their velocities, as far as no point crosses the wall."""
+    for i in range(held - 1, state.q.shape[0]):
+        for c in range(4):
+            free = i > held or (i == held and c == 3)
+            work.step[4 * (i - held + 1) + c] = dt * velocity[i, c] if free else 0.0
+    share = allowed_part(rod, lumen, wall, state.q, work.step, held)
+    for i in range(held, state.q.shape[0]):
+        for c in range(4):
+            state.q[i, c] += share * work.step[4 * (i - held + 1) + c]
+
+
+@part
+def follow_tangents(state, velocity, held, speed):
+    """Velocities of a wire that slides along itself: the guess of quasi-static steps."""
+    last = state.q.shape[0] - 1
+    for i in range(held, last + 1):
+        velocity[i, 3] = 0.0
+        for c in range(3):
+            ahead = state.tangent[min(i, last - 1), c]
+            velocity[i, c] = speed * 0.5 * (state.tangent[i - 1, c] + ahead)
+
+
+@part
+def time_step(model, guide, state, velocity, work, limits, before, start, end, dt, plan):
+    """One step into ``work.ahead`` (P-14, P-16); start, end: (feed, twist) of the guide.
+
+    ``state`` changes only in what is held; returns how Newton ended and the last held node.
+    """
+    rod, _, wall, lumen = model
+    nodes = state.q.shape[0]
+    mouth = find_mouth(rod, guide, end[0])
+    held = mouth.held
+    drive = (start[0], start[1], (end[0] - start[0]) / dt, (end[1] - start[1]) / dt)
+    change_held(rod, guide, state, velocity, before, held, drive)
+    copy_state(state, work.ahead, held)
+    if held == nodes - 1:
+        place_held(rod, guide, work.ahead, 0, held, end[0], end[1])
+        return Outcome(CONVERGED, 0, 0, 0.0, 0), held
+    drag = 1.0 + plan.damping * dt
+    if not plan.inertia:
+        follow_tangents(state, velocity, held, drive[2])
+    for i in range(held, nodes):
+        for c in range(4):
+            work.target[i, c] = state.q[i, c] + dt / drag * velocity[i, c]
+    predict(rod, lumen, wall, work.ahead, velocity, held, dt, work)
+    place_held(rod, guide, work.ahead, held - 1, held, end[0], end[1])
+    update_frames(state, work.ahead, held)
+    motion = Motion(drag / (dt * dt) if plan.inertia else 0.0, work.target)
+    return newton(model, work.ahead, mouth, motion, work, limits), held
+
+
+@part
+def accept(state, velocity, work, held, dt):
+    """Take over the step in ``work.ahead`` and its velocities."""
+    for i in range(held, state.q.shape[0]):
+        for c in range(4):
+            velocity[i, c] = (work.ahead.q[i, c] - state.q[i, c]) / dt
+    copy_state(work.ahead, state, held)
+
+
+@kernel
+def march(model, guide, state, velocity, work, limits, plan, first, last, held, tally):
+    """Time steps first ... last - 1; a step that fails is cut in half a bounded number of times.
+
+    Returns the steps done, the last held node and how the last step ended.
+    """
+    outcome = Outcome(CONVERGED, 0, 0, 0.0, 0)
+    for k in range(first, last):
+        halvings = 0
+        done = 0.0
+        touching = 0
+        while done < 1.0:
+            share = 0.5**halvings
+            start, end = moment(plan, k, done), moment(plan, k, done + share)
+            dt = share * plan.time_step
+            outcome, held = time_step(
+                model, guide, state, velocity, work, limits, held, start, end, dt, plan
+            )
+            tally.counts[1] += outcome.iterations
+            tally.counts[2] += outcome.factorisations
+            if outcome.status != CONVERGED:
+                if halvings == RETRIES:
+                    return k - first, held, outcome
+                halvings += 1
+                tally.counts[3] += 1
+                continue
+            accept(state, velocity, work, held, dt)
+            touching = max(touching, outcome.touching)
+            done += share
+        tally.counts[0] += 1
+        if touching > 0:
+            size = tip_force(model, state)
+            tally.forces[0] = max(tally.forces[0], size)
+            tally.forces[1] += size
+            if tally.forces[2] < 0.0:
+                tally.forces[2] = plan.feed[k + 1]
+    return last - first, held, outcome
+
+
+@kernel
+def moment(plan, k, part):
+    """Feed and twist of the guide at a part of step k."""
+    rest = 1.0 - part
+    return (
+        rest * plan.feed[k] + part * plan.feed[k + 1],
+        rest * plan.twist[k] + part * plan.twist[k + 1],
+    )

@@ -1,0 +1,195 @@
+"""A wire, a lumen, a field: run them, or ask for an equilibrium."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from magwire.contact import Barrier
+from magwire.engine.dynamics import March
+from magwire.engine.feed import Feed
+from magwire.engine.record import Record, RunInfo
+from magwire.engine.statics import Equilibrium, find_equilibrium
+from magwire.engine.system import Release, System
+from magwire.errors import InputError, array, positive
+from magwire.field import FieldSource, UniformField
+from magwire.lumen import Lumen
+from magwire.wire import Wire
+
+if TYPE_CHECKING:
+    from magwire.results import Result
+
+
+class Simulation:
+    """A magnetic wire that is pushed through a lumen.
+
+    Parameters
+    ----------
+    wire, lumen
+        The wire and the lumen; the wire enters at the lumen's entrance, along its direction.
+    field
+        The outside field; none if left out.
+    contact
+        The wall's barrier.
+    damping
+        Dissipation mu [1/s] (P-14).
+    gravity
+        Acceleration, shape (3,) [m/s^2].
+    fluid_density
+        Of what fills the lumen [kg/m^3]; its buoyancy acts against gravity.
+    release
+        How the guide lets go of the wire (P-15): ``"sliding"``, or node by node as in the paper,
+        ``"node"``.
+
+    Raises
+    ------
+    InputError
+        If a value is out of its range, or the wire does not fit into the lumen.
+    """
+
+    def __init__(
+        self,
+        wire: Wire,
+        lumen: Lumen,
+        *,
+        field: FieldSource | None = None,
+        contact: Barrier | None = None,
+        damping: float = 0.01,
+        gravity: ArrayLike = (0.0, 0.0, 0.0),
+        fluid_density: float = 0.0,
+        release: Release = "sliding",
+    ) -> None:
+        pull = array("Simulation", "gravity", gravity, (3,), "m/s^2")
+        self.system = System(
+            wire=wire,
+            lumen=lumen,
+            contact=Barrier() if contact is None else contact,
+            damping=damping,
+            gravity=(float(pull[0]), float(pull[1]), float(pull[2])),
+            fluid_density=fluid_density,
+            release=release,
+        )
+        self.field: FieldSource = UniformField() if field is None else field
+        keeps_off = wire.radius if self.system.contact.wall == "surface" else 0.0
+        if lumen.narrowest <= keeps_off:
+            raise InputError(
+                f"Input wire of Simulation must be thinner than the lumen, whose smallest radius "
+                f"is {lumen.narrowest:.6g} m; received a wire radius of {wire.radius:.6g} m."
+            )
+
+    def run(
+        self,
+        feed: Feed,
+        *,
+        time_step: float = 0.01,
+        record_every: float = 1e-4,
+        out: str | Path | None = None,
+        title: str = "",
+        scenario: str = "",
+        watch: Callable[[Record], None] | None = None,
+    ) -> Result:
+        """Push the wire through the lumen by implicit Euler steps (P-14, P-15).
+
+        Parameters
+        ----------
+        feed
+            The course of the guide.
+        time_step
+            dt [s].
+        record_every
+            Feed between two records [m], at the course's fastest speed.
+        out
+            NetCDF file to write as the run goes; none if left out.
+        title, scenario
+            Kept in the result.
+        watch
+            Called with every record.
+
+        Returns
+        -------
+        Result
+            Its ``status`` is "complete", or "not converged" with a ``message`` that names the
+            remedy; it then ends at the last state that did converge.
+        """
+        from magwire.results import Writer
+
+        positive("Simulation", "record_every", record_every, "m")
+        march = March(self.system, self.field, feed, time_step=time_step)
+        interval = record_every / feed.fastest if feed.fastest > 0.0 else feed.duration
+        every = max(1, round(interval / time_step))
+        with Writer(self.info(title=title, scenario=scenario), out) as writer:
+            for record in march.records(every):
+                writer.append(record)
+                if watch is not None:
+                    watch(record)
+            converged = march.step == march.steps
+            writer.close("complete" if converged else "not converged", march.message)
+        return writer.result()
+
+    def equilibrium(
+        self,
+        feed: float,
+        field: ArrayLike | FieldSource | None = None,
+        *,
+        start: Equilibrium | None = None,
+        twist: float = 0.0,
+    ) -> Equilibrium:
+        """Static equilibrium of the wire at a fixed feed and field (P-16).
+
+        Parameters
+        ----------
+        feed
+            Length of wire inside the lumen [m], between 0 and the wire's length.
+        field
+            Uniform flux density, shape (3,) [T], or a field source; the simulation's own field if
+            left out.
+        start
+            Equilibrium to start from; where its feed differs, the wire is fed from there by
+            equilibria. Left out: the wire laid along the centreline. A wire in a lumen can have
+            more than one equilibrium: the start decides which is found.
+        twist
+            Angle by which the guide turns the wire about its axis [rad].
+
+        Returns
+        -------
+        Equilibrium
+            Positions, shape (nodes, 3) [m]; wall forces, shape (nodes, 3) [N]; ``stable`` by the
+            sign of the tangent stiffness.
+
+        Raises
+        ------
+        InputError
+            If the feed is not between 0 and the wire's length.
+        ConvergenceError
+            If Newton's method fails; carries the last iterate and says what to try.
+        """
+        if field is None:
+            source = self.field
+        elif isinstance(field, FieldSource):
+            source = field
+        else:
+            flux = array("Simulation", "field", field, (3,), "T")
+            source = UniformField((float(flux[0]), float(flux[1]), float(flux[2])))
+        return find_equilibrium(self.system, source, feed, start=start, twist=twist)
+
+    def info(self, *, title: str = "", scenario: str = "") -> RunInfo:
+        """What a result file says of the run as a whole."""
+        points, radii, tags = [np.zeros((0, 3))], [np.zeros(0)], [np.zeros(0, dtype=np.int64)]
+        for i in range(len(self.system.lumen.branches)):
+            centre, radius = self.system.lumen.centreline(i)
+            points.append(centre)
+            radii.append(radius)
+            tags.append(np.full(len(centre), i, dtype=np.int64))
+        return RunInfo(
+            nodes=self.system.wire.nodes,
+            scales=self.system.scales,
+            centreline=np.concatenate(points),
+            lumen_radius=np.concatenate(radii),
+            lumen_branch=np.concatenate(tags),
+            title=title,
+            scenario=scenario,
+        )

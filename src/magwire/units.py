@@ -1,0 +1,203 @@
+"""Quantities as people write them: text with a unit in, SI out, and back.
+
+>>> parse("5 mm", "length")
+0.005
+>>> show(0.005, "length")
+'5 mm'
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from decimal import Decimal
+
+from magwire.errors import InputError
+
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
+_NOT_A_NUMBER = re.compile(r"\s*([+-]?(?:nan|inf|infinity))\b\s*(.*?)\s*", re.IGNORECASE)
+# Other spellings of the same thing: both micro signs, middle dot, superscripts, "1 / m".
+_SPELLINGS = str.maketrans(
+    {"µ": "u", "μ": "u", "·": " ", "²": "^2", "³": "^3", "°": "deg", "⁻": "-", "¹": "^1"}
+)
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """A kind of quantity and the units it may be written in.
+
+    Attributes
+    ----------
+    name
+        As messages call it ("a unit of <name>").
+    example
+        What a well-formed value looks like.
+    units
+        Factor of each unit to SI.
+    preferred
+        Units that ``show`` picks from, largest first; the last one serves for what is smaller.
+    """
+
+    name: str
+    example: str
+    units: dict[str, float]
+    preferred: tuple[str, ...]
+
+
+_LENGTH = {"m": 1.0, "dm": 0.1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "in": 0.0254}
+_TIME = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0}
+_FLUX = {"T": 1.0, "mT": 1e-3, "uT": 1e-6, "G": 1e-4, "kG": 0.1}
+
+DIMENSIONS: dict[str, Dimension] = {
+    "length": Dimension("length", "5 mm", _LENGTH, ("mm",)),
+    "time": Dimension("time", "10 ms", _TIME, ("s", "ms")),
+    "speed": Dimension(
+        "speed",
+        "1 mm/s",
+        {"m/s": 1.0, "cm/s": 1e-2, "mm/s": 1e-3, "um/s": 1e-6, "mm/min": 1e-3 / 60.0},
+        ("mm/s",),
+    ),
+    "acceleration": Dimension(
+        "acceleration",
+        "9.81 m/s^2",
+        {"m/s^2": 1.0, "m/s2": 1.0, "mm/s^2": 1e-3, "mm/s2": 1e-3},
+        ("m/s^2",),
+    ),
+    "pressure": Dimension(
+        "pressure",
+        "3 MPa",
+        {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "N/m^2": 1.0, "N/mm^2": 1e6, "bar": 1e5},
+        ("GPa", "MPa", "kPa", "Pa"),
+    ),
+    "density": Dimension(
+        "density",
+        "2000 kg/m^3",
+        {"kg/m^3": 1.0, "kg/m3": 1.0, "g/cm^3": 1e3, "g/cm3": 1e3, "g/ml": 1e3, "kg/l": 1e3},
+        ("kg/m^3",),
+    ),
+    "magnetization": Dimension(
+        "magnetisation",
+        "128 kA/m",
+        {"A/m": 1.0, "kA/m": 1e3, "MA/m": 1e6, "A/mm": 1e3, "emu/cm^3": 1e3, "emu/cm3": 1e3},
+        ("kA/m",),
+    ),
+    "flux_density": Dimension("flux density", "10 mT", _FLUX, ("mT",)),
+    "flux_gradient": Dimension(
+        "flux gradient",
+        "0.5 T/m",
+        {
+            "T/m": 1.0,
+            "mT/m": 1e-3,
+            "uT/m": 1e-6,
+            "T/mm": 1e3,
+            "mT/mm": 1.0,
+            "mT/cm": 0.1,
+            "G/cm": 1e-2,
+        },
+        ("T/m",),
+    ),
+    "angle": Dimension(
+        "angle",
+        "90 deg",
+        {"rad": 1.0, "mrad": 1e-3, "deg": math.pi / 180.0, "turn": 2 * math.pi},
+        ("deg",),
+    ),
+    "curvature": Dimension(
+        "curvature", "10 1/m", {"1/m": 1.0, "1/cm": 1e2, "1/mm": 1e3, "rad/m": 1.0}, ("1/m",)
+    ),
+    "rate": Dimension("rate", "0.01 1/s", {"1/s": 1.0, "1/ms": 1e3, "1/min": 1 / 60.0}, ("1/s",)),
+    "force": Dimension("force", "1 mN", {"N": 1.0, "mN": 1e-3, "uN": 1e-6, "nN": 1e-9}, ("mN",)),
+    "dimensionless": Dimension("none", "0.5", {"": 1.0, "1": 1.0}, ("",)),
+}
+
+
+def parse(value: object, dimension: str, name: str = "") -> float:
+    """A quantity in SI.
+
+    Parameters
+    ----------
+    value
+        Text such as ``"5 mm"``. Zero needs its unit, too; a plain number passes only where the
+        dimension is "dimensionless".
+    dimension
+        A key of ``DIMENSIONS``.
+    name
+        What messages call the input; "value" if left out.
+
+    Returns
+    -------
+    float
+        The value in the SI unit of the dimension, always finite.
+
+    Raises
+    ------
+    InputError
+        If the text is no number with a unit of this dimension.
+    """
+    kind = DIMENSIONS[dimension]
+    what = f"Input {name or 'value'}"
+    plain = isinstance(value, (int, float)) and not isinstance(value, bool)
+    text = str(value)
+    if not plain and not isinstance(value, str):
+        raise InputError(f"{what} must be text such as '{kind.example}'; received {value!r}.")
+    cleaned = text.translate(_SPELLINGS)
+    if _NOT_A_NUMBER.fullmatch(cleaned):
+        raise InputError(f"{what} must be a finite number; received {text}.")
+    match = _NUMBER.fullmatch(cleaned)
+    if match is None:
+        raise InputError(
+            f"{what} must be a number with a unit of {kind.name} such as '{kind.example}'; "
+            f"received {text!r}."
+            if dimension != "dimensionless"
+            else f"{what} must be a plain number such as {kind.example}; received {text!r}."
+        )
+    unit = re.sub(r"\s*([/^*])\s*", r"\1", match[2])
+    if unit not in kind.units:
+        raise InputError(_wrong_unit(what, kind, unit, text))
+    # Decimal arithmetic: "0.6 mm" is 0.0006 exactly, not 0.0006 and some rounding.
+    number = float(Decimal(match[1]) * Decimal(repr(kind.units[unit])))
+    if not math.isfinite(number):
+        raise InputError(f"{what} must be a finite number; received {text}.")
+    return number
+
+
+def show(value: float, dimension: str) -> str:
+    """A quantity in SI as people write it, in the unit that is customary for it.
+
+    The text is short (six digits); ``write`` gives the one that reads back to the same number.
+    """
+    unit = _customary(value, DIMENSIONS[dimension])
+    number = value / DIMENSIONS[dimension].units[unit]
+    return f"{number:.6g} {unit}".rstrip()
+
+
+def write(value: float, dimension: str) -> str:
+    """A quantity in SI as text that ``parse`` reads back to exactly the same number."""
+    kind = DIMENSIONS[dimension]
+    unit = _customary(value, kind)
+    for digits in (6, 12, 15, 16, 17):
+        text = f"{value / kind.units[unit]:.{digits}g} {unit}".rstrip()
+        if parse(text, dimension) == value:
+            return text
+    base = next(name for name, factor in kind.units.items() if factor == 1.0)
+    return f"{value!r} {base}".rstrip()
+
+
+def _customary(value: float, kind: Dimension) -> str:
+    for unit in kind.preferred:
+        if abs(value) >= kind.units[unit] or value == 0.0:
+            return unit
+    return kind.preferred[-1]
+
+
+def _wrong_unit(what: str, kind: Dimension, unit: str, text: str) -> str:
+    if kind.name == "none":
+        return f"{what} takes no unit; received {text!r}."
+    needs = f"{what} needs a unit of {kind.name} such as '{kind.example}'; received"
+    if not unit:
+        return f"{needs} {text}."
+    other = [k.name for k in DIMENSIONS.values() if unit in k.units and k is not kind]
+    if other:
+        return f"{needs} {text!r}, which is a {other[0]}."
+    return f"{needs} {text!r}."

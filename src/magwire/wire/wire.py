@@ -1,0 +1,133 @@
+"""A wire: sections from the proximal end to the tip, and the number of nodes on it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from magwire.errors import InputError, nonnegative, refuse, whole
+from magwire.wire.section import Section
+
+
+@dataclass(frozen=True)
+class Wire:
+    """A magnetic soft continuum robot: a thin wire made of sections (P-1, P-4).
+
+    Parameters
+    ----------
+    sections
+        From the proximal end to the tip.
+    nodes
+        Number of nodes, evenly spaced; the wire has one edge fewer.
+
+    Raises
+    ------
+    InputError
+        If there is no section, there are fewer than 5 nodes, or a section is shorter than an edge.
+    """
+
+    sections: tuple[Section, ...]
+    nodes: int
+
+    def __post_init__(self) -> None:
+        if not self.sections or not all(isinstance(s, Section) for s in self.sections):
+            raise refuse("Wire", "sections", "at least one Section", self.sections)
+        object.__setattr__(self, "sections", tuple(self.sections))
+        object.__setattr__(self, "nodes", whole("Wire", "nodes", self.nodes, minimum=5))
+        shortest = min(section.length for section in self.sections)
+        if shortest < self.edge_length * (1.0 - 1e-9):
+            needed = math.ceil(self.length / shortest) + 1
+            raise InputError(
+                f"Input nodes of Wire must be at least {needed}, so that the section of "
+                f"{shortest:.6g} m spans an edge; received {self.nodes}."
+            )
+
+    @classmethod
+    def uniform(
+        cls,
+        length: float,
+        radius: float,
+        youngs_modulus: float,
+        shear_modulus: float,
+        density: float,
+        nodes: int,
+        *,
+        magnetized_tip: float = 0.0,
+        magnetization: float | Sequence[float] = 0.0,
+        inner_radius: float = 0.0,
+        rest_curvature: Sequence[float] = (0.0, 0.0),
+    ) -> Wire:
+        """A wire of one material, of which the distal part is magnetised.
+
+        Parameters
+        ----------
+        length, radius, inner_radius
+            Length, outer radius and bore [m].
+        youngs_modulus, shear_modulus
+            Elastic moduli E and G [Pa].
+        density
+            Mass per volume [kg/m^3].
+        nodes
+            Number of nodes.
+        magnetized_tip
+            Length of the magnetised distal part [m]; the whole length magnetises all of it.
+        magnetization
+            Of that part [A/m]: along the axis, or three components (m1, m2, tangent).
+        rest_curvature
+            Curvature of the unloaded wire about m1 and m2, shape (2,) [1/m].
+        """
+        tip = nonnegative("Wire", "magnetized_tip", magnetized_tip, "m")
+        if tip > length:
+            raise refuse("Wire", "magnetized_tip", f"at most the length {length:.10g} m", tip, "m")
+        along = isinstance(magnetization, (int, float))
+        moments = (0.0, 0.0, magnetization) if along else tuple(magnetization)  # type: ignore[arg-type]
+
+        def section(part: float, magnet: Sequence[float]) -> Section:
+            return Section(
+                length=part,
+                youngs_modulus=youngs_modulus,
+                shear_modulus=shear_modulus,
+                radius=radius,
+                density=density,
+                inner_radius=inner_radius,
+                magnetization=tuple(magnet),  # type: ignore[arg-type]
+                rest_curvature=tuple(rest_curvature),  # type: ignore[arg-type]
+            )
+
+        parts = []
+        if tip < length or tip == 0.0:
+            parts.append(section(length - tip, (0.0, 0.0, 0.0)))
+        if tip > 0.0:
+            parts.append(section(tip, moments))
+        return cls(sections=tuple(parts), nodes=nodes)
+
+    @property
+    def length(self) -> float:
+        """Length L [m]."""
+        return math.fsum(section.length for section in self.sections)
+
+    @property
+    def edge_length(self) -> float:
+        """Distance between nodes along the wire [m]."""
+        return self.length / (self.nodes - 1)
+
+    @property
+    def radius(self) -> float:
+        """Largest outer radius [m]."""
+        return max(section.radius for section in self.sections)
+
+    @property
+    def body(self) -> Section:
+        """The longest section: its stiffness is the scale of the paper's numbers (P-18)."""
+        return max(self.sections, key=lambda section: section.length)
+
+    @property
+    def bending_stiffness(self) -> float:
+        """EI of the longest section [N m^2] (P-18)."""
+        return self.body.bending_stiffness
+
+    @property
+    def moment_per_length(self) -> float:
+        """Largest magnetic moment per unit length [A m]; 0 without magnetisation (P-6)."""
+        return max(math.hypot(*section.moment_per_length) for section in self.sections)
