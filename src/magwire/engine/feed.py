@@ -66,8 +66,7 @@ class Feed:
         self.twists: Array = array("Feed", "twists", twists, self.times.shape, "rad")
         if len(self.times) < 2 or self.times[0] != 0.0 or np.any(np.diff(self.times) <= 0.0):
             raise InputError(
-                "Input times of Feed must start at 0 s and rise; "
-                f"received {self.times.tolist()} s."
+                f"Input times of Feed must start at 0 s and rise; received {self.times.tolist()} s."
             )
         moved = 0.5 * (self.speeds[1:] + self.speeds[:-1]) * np.diff(self.times)
         self._fed: Array = np.concatenate(([0.0], np.cumsum(moved)))

@@ -103,7 +103,7 @@ class Record:
     clearance_midpoint
         The smallest of the midpoints between nodes [m]; NaN if all are on the guide.
     tip_force, tip_offset
-        Magnitude of the wall force on the tip node [N]; distance of the tip from the centreline [m].
+        Size of the wall force on the tip node [N]; distance of the tip from the centreline [m].
     newton_iterations
         Per step, mean since the record before.
     stable

@@ -151,9 +151,11 @@ def _solve(point: Point, loads: Array) -> Array:
     moved = np.zeros_like(loads)
     if held == nodes - 1:
         return moved
-    band = _band(point, point.system.new_work())[: last + 1]
+    band = _band(point, point.system.new_work())
     whole = _both_triangles(band[FIRST:last])
-    rows = -loads[:, held - 1 :].reshape(len(loads), -1)
+    used = 4 * (nodes - held + 1)
+    rows = np.zeros((len(loads), len(band)))
+    rows[:, :used] = -loads[:, held - 1 :].reshape(len(loads), -1)
     if factor(band, FIRST, last) < 0:
         for row in rows:
             solve(band, row, FIRST, last)
@@ -162,7 +164,7 @@ def _solve(point: Point, loads: Array) -> Array:
         rows[:, FIRST:last] = solve_banded((half, half), whole, rows[:, FIRST:last].T).T
     rows[:, :FIRST] = 0.0
     rows[:, last:] = 0.0
-    moved[:, held - 1 :] = rows.reshape(len(loads), -1, 4)
+    moved[:, held - 1 :] = rows[:, :used].reshape(len(loads), -1, 4)
     return moved
 
 

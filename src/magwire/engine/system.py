@@ -13,7 +13,7 @@ from magwire.contact import Barrier
 from magwire.engine.record import Scales
 from magwire.errors import array, nonnegative, one_of
 from magwire.kernels.arrays import Guide, Rod, State, Wall, Work
-from magwire.kernels.band import WIDTH
+from magwire.kernels.band import HALF_BANDWIDTH, WIDTH
 from magwire.kernels.newton import Limits
 from magwire.lumen import Lumen
 from magwire.wire import Mesh, Wire, lay_out
@@ -23,7 +23,8 @@ Release = Literal["sliding", "node"]
 
 TOLERANCE = 1e-6  # force residual of a time step, in EI/L^2
 SHARP_TOLERANCE = 1e-9  # force residual of an equilibrium, in EI/L^2
-ITERATIONS = 60
+ITERATIONS = 60  # of a time step
+MANY_ITERATIONS = 400  # of an equilibrium, which may be far from its start
 FIRST_SHIFT = 10.0  # first regularisation, in EI/(rho A L^4)
 
 
@@ -118,13 +119,19 @@ class System:
         """The lumen for the gap kernels, in units of the wire's length."""
         return self.lumen.arrays(self.wire.length)
 
-    def limits(self, tolerance: float = TOLERANCE) -> Limits:
-        """When Newton's method stops; never below what round-off allows on this mesh."""
+    def limits(self, tolerance: float = TOLERANCE, iterations: int = ITERATIONS) -> Limits:
+        """When Newton's method stops; never below what round-off allows on this mesh.
+
+        Round-off grows with the coordinates: a lumen may lie far from the origin.
+        """
         body = self.wire.body
         inertia = body.density * body.area * self.wire.length**4 / body.bending_stiffness
-        finest = float(self.mesh.edge_length.min()) / self.wire.length
-        floor = 4.0 * np.finfo(np.float64).eps / finest**3
-        return Limits(max(tolerance, floor), ITERATIONS, FIRST_SHIFT / inertia)
+        rod = self.rod
+        stiffest = max(float((rod.stretch / rod.rest).max()), 1.0 / float(rod.rest.min()) ** 3)
+        points = [branch.points for branch in self.lumen.branches]
+        far = max([1.0, *(float(np.abs(p).max()) / self.wire.length for p in points)])
+        floor = 4.0 * float(np.finfo(np.float64).eps) * far * stiffest
+        return Limits(max(tolerance, floor), iterations, FIRST_SHIFT / inertia)
 
     def new_wall(self) -> Wall:
         """The barrier, with nothing known yet of the gap near any point."""
@@ -133,6 +140,7 @@ class System:
             stiffness=self.contact.stiffness * length**4 / stiffness,
             gap=self.contact.activation_gap / length,
             known=np.full((self.wire.nodes + 1, 4), -np.inf),
+            jet=np.zeros((self.wire.nodes + 1, 10)),
         )
 
     def new_state(self) -> State:
@@ -149,7 +157,7 @@ class System:
     def new_work(self) -> Work:
         """Scratch arrays of the solver."""
         nodes = self.wire.nodes + 1
-        rows = 4 * (nodes + 1)
+        rows = 4 * (nodes + 1) + HALF_BANDWIDTH
         return Work(
             gradient=np.zeros((nodes, 4)),
             band=np.zeros((rows, WIDTH)),

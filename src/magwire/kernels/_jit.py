@@ -46,13 +46,15 @@ if "NUMBA_CACHE_DIR" not in os.environ:
 
 def kernel(function: Function) -> Function:
     """Compile a kernel on first use; cached on disk, free of the GIL, IEEE division."""
-    compiled: Function = numba.njit(cache=True, nogil=True, error_model="numpy")(function)
+    compiled: Function = numba.njit(cache=True, nogil=True, error_model="numpy", _nrt=False)(
+        function
+    )
     return compiled
 
 
 def part(function: Function) -> Function:
     """A kernel that has one caller only: compiled as a part of it, not once more on its own."""
     compiled: Function = numba.njit(
-        cache=True, nogil=True, error_model="numpy", inline="always"
+        cache=True, nogil=True, error_model="numpy", _nrt=False, inline="always"
     )(function)
     return compiled

@@ -62,12 +62,14 @@ class Wall(NamedTuple):
     """Barrier stiffness and activation gap, and what is known of the gap near each node.
 
     known [N+1, 4]: a point, and a distance by which one may move from there without crossing the
-    wall; nearer than that less the activation gap, no query is needed (P-8).
+    wall; nearer than that less the activation gap, no query is needed (P-8). jet [N+1, 10]: gap,
+    gradient and Hessian there.
     """
 
     stiffness: float
     gap: float
     known: Array
+    jet: Array
 
 
 class State(NamedTuple):

@@ -215,24 +215,35 @@ def _add_magnet(field, state, j, m, gradient, band, r):
 
 
 @kernel
+def query(lumen, x, known, jet):
+    """Ask for the gap at a node and remember it."""
+    g, _, _, safe, n, h = gap_jet(lumen, x[0], x[1], x[2])
+    known[0], known[1], known[2], known[3] = x[0], x[1], x[2], safe
+    jet[0], jet[1], jet[2], jet[3] = g, n[0], n[1], n[2]
+    jet[4], jet[5], jet[6], jet[7], jet[8], jet[9] = h[0], h[1], h[2], h[3], h[4], h[5]
+
+
+@kernel
 def press(rod, lumen, wall, x, i):
     """Barrier of node i at x: active or not, energy, gradient, Hessian (P-8, P-11).
 
     ``wall.known`` remembers where the gap was last asked for and how far from there no wall is.
     """
-    known = wall.known[i]
+    known, jet = wall.known[i], wall.jet[i]
     offset = rod.offset[i]
     reach = wall.gap + offset
-    nothing = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    if norm(sub(x, (known[0], known[1], known[2]))) + reach <= known[3]:
-        return False, 0.0, nothing[0], nothing[1]
-    g, _, _, safe, n, h = gap_jet(lumen, x[0], x[1], x[2])
-    known[0], known[1], known[2], known[3] = x[0], x[1], x[2], safe
+    away = norm(sub(x, (known[0], known[1], known[2])))
+    if away + reach <= known[3]:
+        return False, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if not away == 0.0:
+        query(lumen, x, known, jet)
+    g, n = jet[0], (jet[1], jet[2], jet[3])
+    h = (jet[4], jet[5], jet[6], jet[7], jet[8], jet[9])
     d = g - offset
     if d >= wall.gap:
-        return False, 0.0, nothing[0], nothing[1]
-    if d <= 0.0:
-        return True, inf, nothing[0], nothing[1]
+        return False, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if not d > 0.0:
+        return True, inf, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     k = wall.stiffness * rod.cell[i]
     value, first, curved = barrier(d, wall.gap)
     block = sym_add(sym_outer(k * curved, n), sym_scale(k * first, h))

@@ -104,10 +104,18 @@ def bending_hessian(h, k, c1, c2, w1, w2, frames):
     ef = mat_scale(h.inv_e * h.inv_f, ef)
     ef = mat_add(ef, mat_add(outer(k, c1.by_e, c1.by_f), outer(k, c2.by_e, c2.by_f)))
 
-    e_te = _edge_theta(h, h.inv_e, h.tf, -1.0, b_e, k, c1.by_e, c2.by_e, c1.by_theta_e, c2.by_theta_e)
-    e_tf = _edge_theta(h, h.inv_e, h.tf, -1.0, b_f, k, c1.by_e, c2.by_e, c1.by_theta_f, c2.by_theta_f)
-    f_te = _edge_theta(h, h.inv_f, h.te, 1.0, b_e, k, c1.by_f, c2.by_f, c1.by_theta_e, c2.by_theta_e)
-    f_tf = _edge_theta(h, h.inv_f, h.te, 1.0, b_f, k, c1.by_f, c2.by_f, c1.by_theta_f, c2.by_theta_f)
+    e_te = _edge_theta(
+        h, h.inv_e, h.tf, -1.0, b_e, k, c1.by_e, c2.by_e, c1.by_theta_e, c2.by_theta_e
+    )
+    e_tf = _edge_theta(
+        h, h.inv_e, h.tf, -1.0, b_f, k, c1.by_e, c2.by_e, c1.by_theta_f, c2.by_theta_f
+    )
+    f_te = _edge_theta(
+        h, h.inv_f, h.te, 1.0, b_e, k, c1.by_f, c2.by_f, c1.by_theta_e, c2.by_theta_e
+    )
+    f_tf = _edge_theta(
+        h, h.inv_f, h.te, 1.0, b_f, k, c1.by_f, c2.by_f, c1.by_theta_f, c2.by_theta_f
+    )
 
     tt_ee = k * (c1.by_theta_e**2 + c2.by_theta_e**2) - 0.5 * dot(h.binormal, a_e)
     tt_ff = k * (c1.by_theta_f**2 + c2.by_theta_f**2) - 0.5 * dot(h.binormal, a_f)

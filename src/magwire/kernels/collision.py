@@ -7,6 +7,7 @@ The gap is 1-Lipschitz, so a point may move by less than its gap. Repeating that
 from __future__ import annotations
 
 from magwire.kernels._jit import kernel
+from magwire.kernels.assembly import query
 from magwire.kernels.gap import gap_value
 from magwire.kernels.vectors import combine, norm, row, sub
 
@@ -16,15 +17,15 @@ HOPS = 200
 
 
 @kernel
-def travel(lumen, x, dx, offset, known, limit):
+def travel(lumen, x, dx, offset, known, jet, limit):
     """Largest part of the step dx, at most ``limit``, that point x may take."""
     length = norm(dx)
     away = norm(sub(x, (known[0], known[1], known[2])))
     if limit * length <= CAUTION * (known[3] - away - offset):
         return limit
-    _, _, _, safe = gap_value(lumen, x[0], x[1], x[2])
-    start = safe - offset
-    known[0], known[1], known[2], known[3] = x[0], x[1], x[2], safe
+    if not away == 0.0:
+        query(lumen, x, known, jet)
+    start = known[3] - offset
     part = 0.0
     free = start
     for _ in range(HOPS):
@@ -48,5 +49,5 @@ def allowed_part(rod, lumen, wall, q, step, held):
     for i in range(held + 1, nodes):
         r = 4 * i - lead
         dx = (step[r], step[r + 1], step[r + 2])
-        part = travel(lumen, row(q, i), dx, rod.offset[i], wall.known[i], part)
+        part = travel(lumen, row(q, i), dx, rod.offset[i], wall.known[i], wall.jet[i], part)
     return part

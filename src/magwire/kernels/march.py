@@ -30,8 +30,11 @@ class Plan(NamedTuple):
 
 
 class Tally(NamedTuple):
-    """What a march adds up: counts [steps, Newton iterations, factorisations, retries] and
-    forces [largest tip force, sum of tip forces times steps, feed of first contact (-1: none)]."""
+    """What a march adds up.
+
+    counts: steps, Newton iterations, factorisations, retries. forces: largest tip force, sum of the
+    tip forces of all steps, feed of the first contact (-1 before it).
+    """
 
     counts: Array
     forces: Array

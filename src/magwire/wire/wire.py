@@ -80,10 +80,13 @@ class Wire:
         tip = nonnegative("Wire", "magnetized_tip", magnetized_tip, "m")
         if tip > length:
             raise refuse("Wire", "magnetized_tip", f"at most the length {length:.10g} m", tip, "m")
-        along = isinstance(magnetization, (int, float))
-        moments = (0.0, 0.0, magnetization) if along else tuple(magnetization)  # type: ignore[arg-type]
+        magnet: Sequence[float]
+        if isinstance(magnetization, (int, float)):
+            magnet = (0.0, 0.0, magnetization)
+        else:
+            magnet = magnetization
 
-        def section(part: float, magnet: Sequence[float]) -> Section:
+        def section(part: float, moments: Sequence[float]) -> Section:
             return Section(
                 length=part,
                 youngs_modulus=youngs_modulus,
@@ -91,7 +94,7 @@ class Wire:
                 radius=radius,
                 density=density,
                 inner_radius=inner_radius,
-                magnetization=tuple(magnet),  # type: ignore[arg-type]
+                magnetization=tuple(moments),  # type: ignore[arg-type]
                 rest_curvature=tuple(rest_curvature),  # type: ignore[arg-type]
             )
 
@@ -99,7 +102,7 @@ class Wire:
         if tip < length or tip == 0.0:
             parts.append(section(length - tip, (0.0, 0.0, 0.0)))
         if tip > 0.0:
-            parts.append(section(tip, moments))
+            parts.append(section(tip, magnet))
         return cls(sections=tuple(parts), nodes=nodes)
 
     @property

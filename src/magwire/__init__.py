@@ -1,0 +1,100 @@
+"""Simulator of magnetic soft continuum robots: a magnetic wire pushed through a lumen in a field.
+
+Everything is in SI units. Names are imported when they are first asked for, so that
+``import magwire`` itself costs next to nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from magwire.contact import Barrier as Barrier
+    from magwire.engine.feed import Feed as Feed
+    from magwire.engine.statics import Equilibrium as Equilibrium
+    from magwire.errors import ConvergenceError as ConvergenceError
+    from magwire.errors import InputError as InputError
+    from magwire.errors import MagwireError as MagwireError
+    from magwire.errors import ResultError as ResultError
+    from magwire.errors import ScenarioError as ScenarioError
+    from magwire.field import GradientField as GradientField
+    from magwire.field import UniformField as UniformField
+    from magwire.lumen import Lumen as Lumen
+    from magwire.results import Result as Result
+    from magwire.scenario import Scenario as Scenario
+    from magwire.scenario import load as load_scenario
+    from magwire.scenario import names as scenario_names
+    from magwire.simulation import Simulation as Simulation
+    from magwire.wire import Section as Section
+    from magwire.wire import Wire as Wire
+
+    __version__: str
+
+_HOMES: dict[str, tuple[str, str]] = {
+    "Barrier": ("magwire.contact", "Barrier"),
+    "ConvergenceError": ("magwire.errors", "ConvergenceError"),
+    "Equilibrium": ("magwire.engine.statics", "Equilibrium"),
+    "Feed": ("magwire.engine.feed", "Feed"),
+    "GradientField": ("magwire.field", "GradientField"),
+    "InputError": ("magwire.errors", "InputError"),
+    "Lumen": ("magwire.lumen", "Lumen"),
+    "MagwireError": ("magwire.errors", "MagwireError"),
+    "Result": ("magwire.results", "Result"),
+    "ResultError": ("magwire.errors", "ResultError"),
+    "Scenario": ("magwire.scenario", "Scenario"),
+    "ScenarioError": ("magwire.errors", "ScenarioError"),
+    "Section": ("magwire.wire", "Section"),
+    "Simulation": ("magwire.simulation", "Simulation"),
+    "UniformField": ("magwire.field", "UniformField"),
+    "Wire": ("magwire.wire", "Wire"),
+    "load_scenario": ("magwire.scenario", "load"),
+    "scenario_names": ("magwire.scenario", "names"),
+}
+
+__all__ = [
+    "Barrier",
+    "ConvergenceError",
+    "Equilibrium",
+    "Feed",
+    "GradientField",
+    "InputError",
+    "Lumen",
+    "MagwireError",
+    "Result",
+    "ResultError",
+    "Scenario",
+    "ScenarioError",
+    "Section",
+    "Simulation",
+    "UniformField",
+    "Wire",
+    "__version__",
+    "load_scenario",
+    "scenario_names",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        value: Any = _version()
+    elif name in _HOMES:
+        module, attribute = _HOMES[name]
+        value = getattr(import_module(module), attribute)
+    else:
+        raise AttributeError(f"module 'magwire' has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
+def _version() -> str:
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        return version("magwire")
+    except PackageNotFoundError:  # run from a source tree that is not installed
+        return "0+unknown"

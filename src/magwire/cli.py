@@ -1,0 +1,323 @@
+"""The command line."""
+
+from __future__ import annotations
+
+import json
+import math
+import signal
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import App, CycloptsError, Parameter
+
+import magwire
+from magwire.errors import MagwireError
+
+if TYPE_CHECKING:
+    from magwire.engine.record import Record
+    from magwire.results import Result
+    from magwire.scenario.job import Job
+
+INTERRUPTED = 130
+"""Exit status after Ctrl-C, as shells have it."""
+RESULT, SCENARIO, FIGURES = "result.nc", "scenario.toml", ("figure.png", "figure.svg")
+COLUMN = 20
+"""Width of the names in the summary."""
+
+Folder = Annotated[Path | None, Parameter(help="Folder for the output.")]
+Force = Annotated[bool, Parameter(negative="", help="Overwrite what is there.")]
+
+app = App(
+    name="magwire",
+    help="Simulate magnetic soft continuum robots in lumens.",
+    version=lambda: magwire.__version__,
+    version_flags=["--version"],
+    result_action="return_value",
+)
+
+
+class CommandError(MagwireError):
+    """A command that cannot be carried out."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command.
+
+    Parameters
+    ----------
+    arguments
+        The words after ``magwire``; those of the process if left out.
+
+    Returns
+    -------
+    int
+        Exit status: 0 only if the job did what it says.
+    """
+    words = sys.argv[1:] if arguments is None else list(arguments)
+    try:
+        status = app(words, exit_on_error=False, print_error=False)
+    except KeyboardInterrupt:
+        complain("Interrupted.")
+        return INTERRUPTED
+    except (MagwireError, CycloptsError) as error:
+        complain(str(error))
+        return 1
+    except BrokenPipeError:  # a reader such as head has seen enough
+        sys.stderr.close()
+        return 1
+    return status if isinstance(status, int) else 0
+
+
+def say(text: str = "") -> None:
+    """A line on standard output."""
+    sys.stdout.write(text + "\n")
+
+
+def complain(text: str) -> None:
+    """A line on standard error."""
+    sys.stderr.write(text.strip() + "\n")
+
+
+@app.command(name="list")
+def list_scenarios() -> None:
+    """List the scenarios that come with magwire."""
+    from magwire.scenario import load, names
+
+    width = max(map(len, names()))
+    for name in names():
+        say(f"{name:{width}}  {load(name).description}")
+
+
+@app.command
+def schema() -> None:
+    """Print the JSON schema of scenario files."""
+    from magwire.scenario import json_schema
+
+    say(json.dumps(json_schema(), indent=2))
+
+
+@app.command
+def plot(result: Path, /, *, out: Folder = None, force: Force = False) -> None:
+    """Draw a result as figure.png and figure.svg.
+
+    Parameters
+    ----------
+    result
+        Result file, or the folder that holds it.
+    out
+        Folder for the figures; next to the result, where they replace the ones of the run, if left
+        out.
+    force
+        Overwrite figures in another folder.
+    """
+    from magwire import plot as pictures
+    from magwire.results import Result
+
+    data = Result.load(result)
+    beside = result if result.is_dir() else result.parent
+    folder = out or beside
+    if folder.exists() and not folder.is_dir():
+        raise CommandError(f"Output folder '{folder}' is a file.")
+    there = [name for name in FIGURES if (folder / name).exists()]
+    if there and not force and folder.resolve() != beside.resolve():
+        raise CommandError(
+            f"Folder '{folder}' holds {' and '.join(there)} already; use --force to overwrite."
+        )
+    with writing_to(folder):
+        for path in pictures.save(data.dataset, folder):
+            say(str(path))
+
+
+@app.command
+def run(
+    scenario: str,
+    /,
+    *,
+    overrides: Annotated[list[str] | None, Parameter(name="--set", consume_multiple=True)] = None,
+    out: Folder = None,
+    force: Force = False,
+) -> int:
+    """Run a scenario: result, summary and figure.
+
+    Parameters
+    ----------
+    scenario
+        Name of a scenario of the library, or a TOML file.
+    overrides
+        Keys to set in the scenario, such as wire.radius="0.5 mm".
+    out
+        Folder for the output; NAME-result in the working folder if left out.
+    force
+        Overwrite what a former run left in the folder.
+    """
+    from magwire.scenario import load
+
+    described = load(scenario, overrides or ())
+    folder = out or Path(f"{Path(scenario).stem}-result")
+    check_free(folder, force=force)
+    job = described.build()
+    with writing_to(folder):
+        for name in (RESULT, *FIGURES):
+            (folder / name).unlink(missing_ok=True)
+        (folder / SCENARIO).write_text(described.to_toml(), encoding="utf-8")
+    result = simulate(job, folder / RESULT)
+    if result is None:
+        complain("The run was interrupted before its first record.")
+        return INTERRUPTED
+    for line in summary(result):
+        say(line)
+    with writing_to(folder):
+        from magwire import plot as pictures
+
+        pictures.save(result.dataset, folder)
+    say(f"{'written to':{COLUMN}}{folder}")
+    if result.status == "complete":
+        return 0
+    complain(result.message or f"The run ended early: {result.status}.")
+    return INTERRUPTED if result.status == "interrupted" else 1
+
+
+def simulate(job: Job, file: Path) -> Result | None:
+    """Run a job with a progress bar; None if it was interrupted before its first record."""
+    from magwire.results import Result
+
+    with progress(job.feed.duration) as show, patience() as interrupted:
+
+        def watch(record: Record) -> None:
+            show(record)
+            if interrupted():
+                raise KeyboardInterrupt
+
+        try:
+            return job.run(file, watch=watch)
+        except KeyboardInterrupt:  # the file says "interrupted" by now
+            return Result.load(file) if file.exists() else None
+
+
+@contextmanager
+def patience() -> Iterator[Callable[[], bool]]:
+    """Let the first Ctrl-C wait for the next record; the second one strikes at once.
+
+    Yields
+    ------
+    callable
+        Whether there was one.
+    """
+    pressed = False
+    former = signal.getsignal(signal.SIGINT)
+
+    def press(number: int, frame: FrameType | None) -> None:
+        nonlocal pressed
+        pressed = True
+        signal.signal(signal.SIGINT, former)
+
+    if threading.current_thread() is not threading.main_thread():
+        yield lambda: False  # signals are none of our business here
+        return
+    signal.signal(signal.SIGINT, press)
+    try:
+        yield lambda: pressed
+    finally:
+        signal.signal(signal.SIGINT, former)
+
+
+@contextmanager
+def progress(duration: float) -> Iterator[Callable[[Record], None]]:
+    """A progress bar on standard error: feed, tip force and real-time factor.
+
+    Parameters
+    ----------
+    duration
+        Simulated time at the end of the run [s].
+
+    Yields
+    ------
+    callable
+        To be called with every record.
+    """
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn
+
+    console = Console(stderr=True)
+    bar = Progress(
+        TextColumn("{task.description}"),
+        BarColumn(bar_width=28),
+        TaskProgressColumn(),
+        TextColumn("feed {task.fields[feed]:5.1f} mm"),
+        TextColumn("tip force {task.fields[force]:6.3f} mN"),
+        TextColumn("{task.fields[factor]:.1f} x real time"),
+        console=console,
+        disable=not console.is_terminal,
+        transient=True,
+    )
+    begin = time.perf_counter()
+    with bar:
+        task = bar.add_task("running", total=duration, feed=0.0, force=0.0, factor=0.0)
+
+        def watch(record: Record) -> None:
+            bar.update(
+                task,
+                completed=record.time,
+                feed=1e3 * record.feed,
+                force=1e3 * record.tip_force,
+                factor=record.time / max(time.perf_counter() - begin, 1e-9),
+            )
+
+        yield watch
+
+
+def summary(result: Result) -> list[str]:
+    """What to know of a run, a line each."""
+    from magwire.units import show
+
+    def force(newtons: float) -> str:
+        return f"{newtons:.4g} N, normalised {newtons / result.force_scale:.4g}"
+
+    last = result.time.size - 1
+    simulated = float(result.time[last]) if last >= 0 else 0.0
+    fed = float(result.feed[last]) if last >= 0 else 0.0
+    contact = result.first_contact
+    length = float(result.dataset.attrs["length_scale"])
+    clearance = result.smallest_clearance
+    pace = result.wall_time / simulated if simulated > 0.0 else math.nan
+    rows = {
+        "status": result.status,
+        "fed": f"{show(fed, 'length')} in {result.steps} steps, {simulated:.4g} s simulated",
+        "peak tip force": force(result.max_tip_force),
+        "mean tip force": force(result.mean_tip_force),
+        "smallest clearance": "none, no wall" if math.isnan(clearance) else f"{clearance:.3e} m",
+        "first contact": "none"
+        if contact is None
+        else f"at a feed of {show(contact, 'length')}, push {contact / length:.3f}",
+        "Newton iterations": f"{result.newton_iterations_per_step:.2f} per step",
+        "wall time": f"{pace:.4g} s per simulated second, {result.wall_time:.2f} s in all",
+    }
+    return [f"{name:{COLUMN}}{text}" for name, text in rows.items()]
+
+
+def check_free(folder: Path, *, force: bool) -> None:
+    """Refuse a folder that holds something, unless it may be overwritten."""
+    if folder.exists() and not folder.is_dir():
+        raise CommandError(f"Output folder '{folder}' is a file; expected a folder or a new name.")
+    if folder.is_dir() and any(folder.iterdir()) and not force:
+        raise CommandError(
+            f"Output folder '{folder}' exists already; use --force to overwrite it, "
+            "or --out for another."
+        )
+
+
+@contextmanager
+def writing_to(folder: Path) -> Iterator[None]:
+    """Make a folder and say it plainly if it cannot be written to."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        yield
+    except OSError as error:
+        reason = (error.strerror or "unknown reason").lower()
+        raise CommandError(f"Output folder '{folder}' cannot be written: {reason}.") from error

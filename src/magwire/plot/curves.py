@@ -1,0 +1,127 @@
+"""The curves against push: tip force, field and clearance."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+
+from magwire.plot import style
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+PUSH_LABEL = r"normalised push  $\mathcal{X}$"
+
+
+def draw_force(ax: Axes, data: xr.Dataset) -> None:
+    """Normalised tip force against normalised push, with millinewtons on the right."""
+    push, force = data["normalized_push"].values, data["normalized_tip_force"].values
+    ax.fill_between(push, force, color=style.FORCE, alpha=0.12, linewidth=0.0)
+    ax.plot(push, force, color=style.FORCE)
+    top = float(np.nanmax(force, initial=0.0))
+    ax.set_ylim(0.0, 1.22 * top if top > 0.0 else 1.0)
+    ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 5, 10]))
+    ax.set_ylabel(r"tip force  $\mathcal{F}$")
+    _second_axis(ax, 1e3 * float(data.attrs["force_scale"]), "[mN]")
+    if top > 0.0:
+        peak = int(np.nanargmax(force))
+        ax.plot(push[peak], top, "o", color=style.FORCE, markersize=3.2, mec="white", mew=0.5)
+        side = "right" if push[peak] > 0.6 * push.max() else "left"
+        ax.annotate(
+            f"peak {top:.1f}",
+            (push[peak], top),
+            xytext=(0, 3.5),
+            textcoords="offset points",
+            ha=side,
+            fontsize=6.5,
+            color=style.FORCE,
+        )
+    else:
+        _note(ax, "the tip never touches the wall")
+
+
+def draw_field(ax: Axes, data: xr.Dataset) -> None:
+    """Components of the flux density against normalised push, normalised on the right."""
+    push, field = data["normalized_push"].values, 1e3 * data["field"].values
+    size = float(np.nanmax(np.abs(field), initial=0.0))
+    for k, (name, colour) in enumerate(zip("xyz", style.COMPONENTS, strict=True)):
+        if size > 0.0:
+            ax.plot(push, field[:, k], color=colour, label=f"$B_{name}$", zorder=3 - 0.1 * k)
+    ax.axhline(0.0, color=style.MUTED, linewidth=0.5, zorder=1)
+    ax.set_ylabel("field [mT]")
+    if size > 0.0:
+        low, high = min(float(np.nanmin(field)), 0.0), max(float(np.nanmax(field)), 0.0)
+        room = high - low
+        ax.set_ylim(low - 0.08 * room, high + 0.3 * room)  # room on top for the legend
+        ax.legend(loc="upper left", ncols=3, borderaxespad=0.1, columnspacing=1.2)
+    else:
+        ax.set_ylim(-1.0, 1.0)
+        _note(ax, "no field")
+    ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 5, 10]))
+    scale = float(data.attrs["field_scale"])
+    if np.isfinite(scale):
+        _second_axis(ax, 1e3 * scale, r"$\mathcal{B}$", inverse=True)
+
+
+def draw_clearance(ax: Axes, data: xr.Dataset) -> None:
+    """Clearance of the tip and the smallest along the wire against normalised push."""
+    push, nodes = data["normalized_push"].values, 1e3 * data["clearance"].values
+    between = 1e3 * data["clearance_midpoint"].values
+    finite = np.where(np.isfinite(nodes) & (nodes > 0.0), nodes, np.inf)
+    smallest = np.minimum(
+        finite.min(axis=1, initial=np.inf), np.where(between > 0, between, np.inf)
+    )
+    tip = finite[:, -1]
+    ax.set_xlabel(PUSH_LABEL)
+    ax.set_ylabel("clearance [mm]")
+    if not np.isfinite(smallest).any():
+        ax.set_ylim(0.0, 1.0)
+        _note(ax, "no wall")
+        return
+    for values, colour, name, width in (  # the tip on top: where it touches, they are the same
+        (smallest, style.CLEARANCE, "smallest of the wire", 2.4),
+        (tip, style.TIP, "tip", 1.1),
+    ):
+        shown = np.where(np.isfinite(values), values, np.nan)
+        ax.plot(push, shown, color=colour, label=name, linewidth=width)
+    ax.set_yscale("log")
+    shown = np.concatenate([smallest[np.isfinite(smallest)], tip[np.isfinite(tip)]])
+    decades = np.floor(np.log10(shown.min()) + 1e-9), np.ceil(np.log10(shown.max()) + 0.4)
+    ax.set_ylim(10 ** min(decades[0], decades[1] - 2.0), 10 ** decades[1])
+    ax.yaxis.set_major_locator(LogLocator(base=10.0, numticks=5))
+    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    ax.yaxis.set_minor_formatter(NullFormatter())
+    ax.legend(loc="upper right", ncols=2, borderaxespad=0.1, columnspacing=1.2)
+
+
+def _second_axis(ax: Axes, factor: float, label: str, *, inverse: bool = False) -> None:
+    """A scale on the right: the left one times ``factor``, or over it."""
+    k = 1.0 / factor if inverse else factor
+
+    def there(y: Any) -> Any:
+        return y * k
+
+    def back(y: Any) -> Any:
+        return y / k
+
+    right: Any = ax.secondary_yaxis("right", functions=(there, back))
+    right.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 5, 10]))
+    right.spines["right"].set_visible(True)
+    right.spines["right"].set_linewidth(0.6)
+    right.set_ylabel(label)
+
+
+def _note(ax: Axes, text: str) -> None:
+    ax.text(
+        0.5,
+        0.62,
+        text,
+        transform=ax.transAxes,
+        ha="center",
+        va="bottom",
+        color=style.MUTED,
+        fontstyle="italic",
+    )

@@ -1,0 +1,125 @@
+"""The figure of a run: the paper's panels on one page."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import matplotlib as mpl
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from magwire.plot import curves, shapes, style
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+HEIGHT = 104.0
+"""Height of the figure [mm], at least."""
+WIDE = 1.8
+"""Width over height from which a lumen shares its column with the field's panel."""
+COLUMN, AROUND, BELOW = 82.0, 33.0, 46.0
+"""Width of a wide lumen, height of what is around it, and of the panel below it [mm]."""
+FORMATS = ("png", "svg")
+
+
+def draw(data: xr.Dataset) -> Figure:
+    """Draw a result.
+
+    Parameters
+    ----------
+    data
+        A result file's variables and attributes.
+
+    Returns
+    -------
+    Figure
+        Two columns wide (180 mm): shapes of the wire at several feeds, normalised tip force, field
+        components and clearance against normalised push.
+    """
+    with mpl.rc_context(style.RC):
+        aspect = shapes.aspect(data)
+        top = COLUMN / aspect + AROUND
+        height = HEIGHT if aspect < WIDE else max(HEIGHT, top + BELOW)
+        figure = Figure(figsize=(style.WIDTH * style.MM, height * style.MM), layout="constrained")
+        FigureCanvasAgg(figure)
+        engine: Any = figure.get_layout_engine()
+        engine.set(w_pad=0.03, h_pad=0.03, wspace=0.02, hspace=0.02)
+        halves: Any = figure.subfigures(1, 2, width_ratios=(1.12, 1.0))
+        left, right = halves
+        if aspect < WIDE:
+            shape, (force, field, clearance) = left, right.subplots(3, 1, sharex=True)
+        else:
+            shape, below = left.subfigures(2, 1, height_ratios=(top, height - top))
+            field = below.subplots()
+            field.set_xlabel(curves.PUSH_LABEL)
+            force, clearance = right.subplots(2, 1, sharex=True)
+        _draw_shapes(shape, data)
+        curves.draw_force(force, data)
+        curves.draw_field(field, data)
+        curves.draw_clearance(clearance, data)
+        push = data["normalized_push"].values
+        for letter, panel in zip("bcd", (force, field, clearance), strict=True):
+            panel.set_title(letter, loc="left", fontweight="bold", pad=3.0)
+            panel.xaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
+            panel.set_xlim(0.0, float(push.max(initial=0.0)) or 1.0)
+        figure.draw_without_rendering()  # settles the layout, once for all formats
+        figure.set_layout_engine("none")
+    return figure
+
+
+def save(data: xr.Dataset, folder: str | Path, name: str = "figure") -> list[Path]:
+    """Draw a result and write it as PNG and SVG.
+
+    Parameters
+    ----------
+    data
+        A result file's variables and attributes.
+    folder
+        Where to.
+    name
+        Name of the files without suffix.
+
+    Returns
+    -------
+    list
+        The files.
+    """
+    figure = draw(data)
+    paths = [Path(folder) / f"{name}.{suffix}" for suffix in FORMATS]
+    with mpl.rc_context(style.RC):
+        for path in paths:
+            # Without the date, the same result makes the same file.
+            figure.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
+    return paths
+
+
+def _draw_shapes(panel: Any, data: xr.Dataset) -> None:
+    pair = shapes.plane(data)
+    if pair is None:
+        ax = panel.add_subplot(projection="3d", computed_zorder=False)
+        shapes.draw_spatial(ax, data)
+    else:
+        ax = panel.add_subplot()
+        shapes.draw_planar(ax, data, pair)
+    ax.set_title(_title(data), loc="left", pad=6.0)
+    push = data["normalized_push"].values
+    colours = ScalarMappable(Normalize(0.0, float(push.max(initial=0.0)) or 1.0), style.PUSH)
+    bar = panel.colorbar(colours, ax=ax, orientation="horizontal", shrink=0.62, aspect=34, pad=0.02)
+    bar.outline.set_visible(False)
+    bar.set_ticks([round(float(push[k]), 3) for k in shapes.snapshots(data)])
+    bar.ax.tick_params(length=0.0)
+    bar.set_label(curves.PUSH_LABEL)
+
+
+def _title(data: xr.Dataset) -> str:
+    """Letter, title and, for a run that did not end well, how it ended."""
+    title = str(data.attrs.get("title", ""))
+    status = str(data.attrs.get("status", "complete"))
+    push = data["normalized_push"].values
+    if status != "complete" and push.size:
+        title += f" ({status} at push {push[-1]:.3f})"
+    return r"$\bf{a}$   " + title

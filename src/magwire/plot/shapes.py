@@ -1,0 +1,191 @@
+"""The wire in its lumen at several feeds, in the plane or in space."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from matplotlib.patches import Polygon
+from numpy.typing import NDArray
+
+from magwire.plot import style
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+Array = NDArray[np.float64]
+PLANES = ((0, 1), (0, 2), (1, 2))
+FLAT = 1e-6
+"""Extent across a coordinate plane, over the largest extent, up to which a lumen is planar."""
+SIDES = 28
+"""Corners of a cross-section of the lumen drawn in space."""
+GUIDE = 0.12
+"""Length of the guide that is shown before the entrance, over the largest extent."""
+
+
+class Branch(NamedTuple):
+    """One branch of the lumen: points, shape (q, 3), and radius, shape (q,) [mm]."""
+
+    points: Array
+    radius: Array
+
+
+def branches(data: xr.Dataset) -> list[Branch]:
+    """The branches of the lumen in millimetres; none in open space."""
+    if "centreline" not in data:
+        return []
+    index = data["lumen_branch"].values
+    points, radius = 1e3 * data["centreline"].values, 1e3 * data["lumen_radius"].values
+    return [Branch(points[index == i], radius[index == i]) for i in np.unique(index)]
+
+
+def plane(data: xr.Dataset) -> tuple[int, int] | None:
+    """The coordinate plane that the lumen lies in, as two axes; None if it lies in none."""
+    parts = branches(data)
+    points = np.concatenate([part.points for part in parts]) if parts else _all_nodes(data)
+    extent = np.ptp(points, axis=0)
+    for pair in PLANES:
+        across = ({0, 1, 2} - set(pair)).pop()
+        if extent[across] <= FLAT * extent.max():
+            return pair
+    return None
+
+
+def aspect(data: xr.Dataset) -> float:
+    """Width over height of what is shown; 1 in space."""
+    pair = plane(data)
+    if pair is None:
+        return 1.0
+    low, high = _window(data)
+    size = high - low
+    return float(size[pair[0]] / size[pair[1]])
+
+
+def snapshots(data: xr.Dataset, most: int = 8) -> list[int]:
+    """Indices of the records to draw: at even feeds on round numbers, and the last one."""
+    push = data["normalized_push"].values
+    if push.size == 0:
+        return []
+    last = float(push.max())
+    step = next((s for s in (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0) if last / s <= most), last)
+    wanted = [*np.arange(step, last + 1e-9, step)] if step > 0.0 else []
+    if not wanted or last - wanted[-1] > 0.6 * step:
+        wanted.append(last)
+    # The first time that a feed is reached: later ones may belong to a retraction.
+    return [int(np.argmax(push >= feed - 1e-9)) for feed in wanted]
+
+
+def draw_planar(ax: Axes, data: xr.Dataset, pair: tuple[int, int]) -> None:
+    """Draw lumen and wires in a coordinate plane."""
+    i, j = pair
+    for left, right in _walls(data, pair):
+        for wall in (left, right):
+            ax.plot(*wall.T, color=style.LUMEN_EDGE, linewidth=0.9, zorder=1)
+        corners = np.concatenate([left, right[::-1]])
+        ax.add_patch(Polygon(corners, facecolor=style.LUMEN_FILL, edgecolor="none", zorder=2))
+    for nodes, colour in _wires(data):
+        ax.plot(nodes[:, i], nodes[:, j], color=colour, linewidth=1.6, zorder=3)
+        ax.plot(*nodes[-1, [i, j]], "o", color=colour, markersize=4, mec="white", mew=0.5, zorder=4)
+    low, high = _window(data)
+    ax.set_xlim(low[i], high[i])
+    ax.set_ylim(low[j], high[j])
+    ax.set_aspect("equal")
+    ax.grid(visible=False)
+    ax.set_xlabel(f"{'xyz'[i]} [mm]")
+    ax.set_ylabel(f"{'xyz'[j]} [mm]")
+
+
+def draw_spatial(ax: Any, data: xr.Dataset) -> None:
+    """Draw lumen and wires in space, on three-dimensional axes."""
+    for part in branches(data):
+        x, y, z = _tube(part)
+        ax.plot_surface(
+            x, y, z, color=style.LUMEN_EDGE, alpha=0.16, linewidth=0.0, shade=False, zorder=1,
+            rstride=1, cstride=1, antialiased=True, rasterized=True,
+        )  # fmt: skip
+    low, high = _window(data)
+    for nodes, colour in _wires(data):
+        inside = nodes[np.all((nodes >= low) & (nodes <= high), axis=1)]
+        ax.plot(*inside.T, color=colour, linewidth=1.8, zorder=3)
+        ax.plot(*nodes[-1:].T, "o", color=colour, markersize=4, mec="white", mew=0.5, zorder=4)
+    ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
+    ax.set_box_aspect(high - low, zoom=1.0)
+    ax.view_init(elev=24, azim=-58)
+    for axis, name in zip((ax.xaxis, ax.yaxis, ax.zaxis), "xyz", strict=True):
+        axis.set_pane_color((1.0, 1.0, 1.0, 0.0))
+        axis.line.set_color(style.MUTED)
+        axis._axinfo["grid"].update(color=style.GRID, linewidth=0.5)
+        axis.set_major_locator(_few_ticks())
+        axis.set_label_text(f"{name} [mm]")
+        axis.labelpad = -6
+        axis.set_tick_params(pad=-3)
+
+
+def _few_ticks() -> Any:
+    from matplotlib.ticker import MaxNLocator
+
+    return MaxNLocator(nbins=4, steps=[1, 2, 5, 10])
+
+
+def _all_nodes(data: xr.Dataset) -> Array:
+    nodes = 1e3 * np.asarray(data["position"].values, dtype=np.float64).reshape(-1, 3)
+    return nodes if len(nodes) else np.zeros((1, 3))
+
+
+def _wires(data: xr.Dataset) -> Iterator[tuple[Array, Any]]:
+    """Nodes [mm] and colours of the wires to draw; the longest first, so that none is hidden."""
+    push = data["normalized_push"].values
+    last = float(push.max()) if push.size else 1.0
+    for k in reversed(snapshots(data)):
+        yield 1e3 * data["position"].values[k], style.PUSH(push[k] / last if last else 1.0)
+
+
+def _window(data: xr.Dataset) -> tuple[Array, Array]:
+    """Corners of what is shown [mm]: the lumen with a margin and the last bit of the guide."""
+    parts = branches(data)
+    if not parts:
+        points = _all_nodes(data)
+        low, high = points.min(axis=0), points.max(axis=0)
+        margin = 0.05 * float((high - low).max()) or 1.0
+        return low - margin, high + margin
+    low = np.min([np.min(p.points - p.radius[:, None], axis=0) for p in parts], axis=0)
+    high = np.max([np.max(p.points + p.radius[:, None], axis=0) for p in parts], axis=0)
+    size = float((high - low).max())
+    margin = 0.03 * size
+    start, after = parts[0].points[:2]
+    guide = start - (after - start) / np.linalg.norm(after - start) * GUIDE * size
+    return np.minimum(low - margin, guide), np.maximum(high + margin, guide)
+
+
+def _tangents(points: Array) -> Array:
+    slope = np.gradient(points, axis=0)
+    return np.asarray(slope / np.linalg.norm(slope, axis=1, keepdims=True))
+
+
+def _walls(data: xr.Dataset, pair: tuple[int, int]) -> Iterator[tuple[Array, Array]]:
+    """Both walls of each branch in the plane, shape (q, 2) [mm]."""
+    for part in branches(data):
+        points = part.points[:, list(pair)]
+        tangent = _tangents(points)
+        normal = np.column_stack([-tangent[:, 1], tangent[:, 0]]) * part.radius[:, None]
+        yield points + normal, points - normal
+
+
+def _tube(part: Branch) -> tuple[Array, Array, Array]:
+    """The lumen's wall in space: three arrays of shape (q, SIDES) [mm]."""
+    every = max(1, len(part.radius) // 160)
+    keep = np.unique(np.r_[0 : len(part.radius) : every, len(part.radius) - 1])
+    points, radius = part.points[keep], part.radius[keep]
+    tangent = _tangents(points)
+    across = np.eye(3)[np.argmin(np.abs(tangent[0]))]
+    angle = np.linspace(0.0, 2.0 * np.pi, SIDES)
+    wall = np.empty((len(points), SIDES, 3))
+    for k, along in enumerate(tangent):  # the normal is carried along without twisting
+        across = across - along * (across @ along)
+        across /= np.linalg.norm(across)
+        beside = np.cross(along, across)
+        circle = np.outer(np.cos(angle), across) + np.outer(np.sin(angle), beside)
+        wall[k] = points[k] + radius[k] * circle
+    return wall[..., 0], wall[..., 1], wall[..., 2]

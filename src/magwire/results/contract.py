@@ -1,0 +1,180 @@
+"""What a result file holds: its variables with their units, and how to read it back."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from magwire.engine.record import Record, RunInfo
+
+FLOAT = np.dtype(np.float64)
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A variable of the file that grows with time.
+
+    Attributes
+    ----------
+    dims
+        Names of its dimensions.
+    units
+        Its unit, "1" for a plain number.
+    long_name
+        What it is.
+    read
+        Its value at one time, from the record and what is known of the run.
+    dtype
+        Type of the numbers.
+    extra
+        Further attributes.
+    """
+
+    dims: tuple[str, ...]
+    units: str
+    long_name: str
+    read: Callable[[Record, RunInfo], Any]
+    dtype: np.dtype[Any] = FLOAT
+    extra: tuple[tuple[str, Any], ...] = ()
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A variable of the file that is known from the start."""
+
+    dims: tuple[str, ...]
+    units: str
+    long_name: str
+    read: Callable[[RunInfo], Any]
+    dtype: np.dtype[Any] = FLOAT
+
+
+VARIABLES: dict[str, Variable] = {
+    "time": Variable(("time",), "s", "simulated time", lambda r, _: r.time),
+    "feed": Variable(("time",), "m", "length of wire fed into the lumen", lambda r, _: r.feed),
+    "position": Variable(
+        ("time", "node", "xyz"), "m", "positions of the nodes", lambda r, _: r.position
+    ),
+    "field": Variable(("time", "xyz"), "T", "flux density at the tip", lambda r, _: r.flux_density),
+    "contact_force": Variable(
+        ("time", "node", "xyz"), "N", "force of the wall on the wire", lambda r, _: r.contact_force
+    ),
+    "clearance": Variable(
+        ("time", "node"), "m", "distance of the nodes to the wall", lambda r, _: r.clearance
+    ),
+    "clearance_midpoint": Variable(
+        ("time",),
+        "m",
+        "smallest distance to the wall midway between nodes",
+        lambda r, _: r.clearance_midpoint,
+    ),
+    "tip_force": Variable(
+        ("time",), "N", "magnitude of the force of the wall on the tip", lambda r, _: r.tip_force
+    ),
+    "tip_offset": Variable(
+        ("time",), "m", "distance of the tip from the centreline", lambda r, _: r.tip_offset
+    ),
+    "newton_iterations": Variable(
+        ("time",),
+        "1",
+        "Newton iterations per step, mean since the record before",
+        lambda r, _: r.newton_iterations,
+    ),
+    "stable": Variable(
+        ("time",),
+        "1",
+        "whether the tangent stiffness is positive definite",
+        lambda r, _: int(r.stable),
+        np.dtype(np.int8),
+        (("flag_values", np.array([0, 1], dtype=np.int8)), ("flag_meanings", "unstable stable")),
+    ),
+    "wall_time": Variable(
+        ("time",), "s", "time spent since the start of the run", lambda r, _: r.totals.wall_time
+    ),
+    "normalized_push": Variable(
+        ("time",), "1", "fed length over length of the wire", lambda r, i: r.feed / i.scales.length
+    ),
+    "normalized_field": Variable(
+        ("time", "xyz"),
+        "1",
+        "flux density at the tip times |M| L^2 / EI",
+        lambda r, i: np.asarray(r.flux_density) / i.scales.flux_density,
+    ),
+    "normalized_tip_force": Variable(
+        ("time",), "1", "tip force times L^2 / EI", lambda r, i: r.tip_force / i.scales.force
+    ),
+}
+
+CONSTANTS: dict[str, Constant] = {
+    "centreline": Constant(
+        ("centreline_point", "xyz"), "m", "centreline of the lumen", lambda i: i.centreline
+    ),
+    "lumen_radius": Constant(
+        ("centreline_point",), "m", "radius of the lumen", lambda i: i.lumen_radius
+    ),
+    "lumen_branch": Constant(
+        ("centreline_point",),
+        "1",
+        "branch that a point of the centreline belongs to",
+        lambda i: i.lumen_branch,
+        np.dtype(np.int32),
+    ),
+}
+
+
+def sizes(info: RunInfo) -> dict[str, int]:
+    """Lengths of the dimensions other than time."""
+    return {"node": info.nodes, "xyz": 3, "centreline_point": len(info.lumen_radius)}
+
+
+def _title_of(scenario: str) -> str:
+    title = tomllib.loads(scenario).get("title", "")
+    return title if isinstance(title, str) else ""
+
+
+def opening_attributes(info: RunInfo, version: str) -> dict[str, Any]:
+    """Attributes of the file that are known from the start."""
+    return {
+        "Conventions": "CF-1.11",
+        "title": info.title or _title_of(info.scenario),
+        "source": f"magwire {version}",
+        "magwire_version": version,
+        "scenario": info.scenario,
+        "length_scale": float(info.scales.length),
+        "force_scale": float(info.scales.force),
+        "field_scale": float(info.scales.flux_density),
+    }
+
+
+def running_attributes(record: Record | None) -> dict[str, Any]:
+    """Attributes of the file that change as the run goes."""
+    nan = float("nan")
+    if record is None:
+        return {
+            "max_tip_force": 0.0,
+            "mean_tip_force": 0.0,
+            "first_contact_feed": nan,
+            "smallest_clearance": nan,
+            "steps": 0,
+            "newton_iterations_total": 0,
+            "factorisations_total": 0,
+            "retries_total": 0,
+            "wall_time_total": 0.0,
+        }
+    totals = record.totals
+    clearance = float(totals.smallest_clearance)
+    return {
+        "max_tip_force": float(totals.max_tip_force),
+        "mean_tip_force": float(totals.mean_tip_force),
+        "first_contact_feed": float(totals.first_contact_feed),
+        "smallest_clearance": clearance if np.isfinite(clearance) else nan,
+        "steps": int(totals.steps),
+        "newton_iterations_total": int(totals.newton_iterations),
+        "factorisations_total": int(totals.factorisations),
+        "retries_total": int(totals.retries),
+        "wall_time_total": float(totals.wall_time),
+    }

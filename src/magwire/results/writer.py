@@ -1,0 +1,236 @@
+"""The record of a run, kept in memory or written to a NetCDF-4 file as the run goes."""
+
+from __future__ import annotations
+
+import shutil
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+
+import magwire
+from magwire.engine.record import Record, RunInfo
+from magwire.errors import ResultError
+from magwire.results.contract import (
+    CONSTANTS,
+    FLOAT,
+    VARIABLES,
+    opening_attributes,
+    running_attributes,
+    sizes,
+)
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from magwire.results.result import Result
+
+FLUSH_SECONDS = 2.0
+"""Wall time between flushes [s]."""
+FLUSH_SHARE = 0.03
+"""Share of the wall time that flushing may take: flushes of a very large file come less often."""
+CHUNK_BYTES = 2**16
+
+
+class Writer:
+    """Takes the records of a run and makes its result.
+
+    Between flushes records wait in memory. A flush appends them to a copy of the file, which then
+    takes the place of the file in one step: a process that is killed at any time leaves a file that
+    is complete up to its last flush, and others may read it while the run goes. As a context
+    manager the writer closes itself when the block is left by an exception: "interrupted" after
+    Ctrl-C, "failed" else.
+
+    Parameters
+    ----------
+    info
+        What is known of the run before its first step.
+    path
+        File to write, overwritten if it exists; None keeps the result in memory.
+
+    Raises
+    ------
+    ResultError
+        If the file cannot be written.
+    """
+
+    def __init__(self, info: RunInfo, path: str | Path | None = None) -> None:
+        self.info = info
+        self.path = None if path is None else Path(path)
+        self.closed = False
+        self._waiting: list[Record] = []
+        self._last: Record | None = None
+        self._written = 0
+        self._due = 0.0
+        self._attributes = opening_attributes(info, magwire.__version__)
+        self._attributes |= {"status": "running", "message": ""} | running_attributes(None)
+        if self.path is not None:
+            self._begin(self.path)
+
+    def append(self, record: Record) -> None:
+        """Take a record; its arrays must not be changed afterwards."""
+        self._last = record
+        self._waiting.append(record)
+        if self.path is not None and time.monotonic() >= self._due:
+            self.flush()
+
+    def flush(self) -> None:
+        """Bring what waits in memory into the file, so that it survives the end of the process."""
+        if self.path is None or self.closed or not self._waiting:
+            return
+        begin = time.monotonic()
+        try:
+            self._commit(self.path)
+        except PermissionError:
+            # On Windows, while others read the file. Nothing is lost: the next flush takes it all.
+            pass
+        except OSError as error:
+            raise _unwritable(self.path, error) from None
+        end = time.monotonic()
+        self._due = end + max(FLUSH_SECONDS, (end - begin) / FLUSH_SHARE)
+
+    def close(self, status: str, message: str = "") -> None:
+        """End the record.
+
+        Parameters
+        ----------
+        status
+            "complete", "not converged", "interrupted" or "failed".
+        message
+            One sentence on why, "" if the run is complete.
+        """
+        if self.closed:
+            return
+        self._attributes |= running_attributes(self._last) | {"status": status, "message": message}
+        self.closed = True
+        if self.path is not None:
+            try:
+                self._commit(self.path, status=status, message=message)
+            except OSError as error:
+                raise _unwritable(self.path, error) from None
+
+    def result(self) -> Result:
+        """What has been recorded; of a closed writer only."""
+        from magwire.results.result import Result
+
+        if not self.closed:
+            raise ResultError("A result can be had from its writer only after the run has ended.")
+        return Result(self._dataset()) if self.path is None else Result.load(self.path)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if error is None:
+            self.close("complete")
+        elif isinstance(error, KeyboardInterrupt):
+            self.close("interrupted", "The run was interrupted.")
+        else:
+            self.close("failed", str(error) or type(error).__name__)
+
+    def _columns(self, records: list[Record]) -> dict[str, Any]:
+        """The variables of some records, each with time as its first axis."""
+        return {
+            name: np.array([v.read(r, self.info) for r in records], dtype=v.dtype).reshape(
+                len(records), *(sizes(self.info)[dim] for dim in v.dims[1:])
+            )
+            for name, v in VARIABLES.items()
+        }
+
+    def _dataset(self) -> xr.Dataset:
+        import xarray as xr
+
+        data: dict[str, Any] = {}
+        for name, column in self._columns(self._waiting).items():
+            variable = VARIABLES[name]
+            notes = {"units": variable.units, "long_name": variable.long_name}
+            data[name] = (variable.dims, column, notes | dict(variable.extra))
+        for name, constant in self._constants().items():
+            notes = {"units": constant.units, "long_name": constant.long_name}
+            data[name] = (constant.dims, constant.read(self.info).astype(constant.dtype), notes)
+        return xr.Dataset(data, attrs=self._attributes).set_coords("time")
+
+    def _constants(self) -> dict[str, Any]:
+        """The variables without time; a run in open space has none."""
+        return CONSTANTS if sizes(self.info)["centreline_point"] else {}
+
+    def _begin(self, path: Path) -> None:
+        """Make the file, without records."""
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with _successor(path) as draft:
+                draft.open("wb").close()  # has plainer errors than HDF5
+                self._lay_out(draft)
+        except OSError as error:
+            raise _unwritable(path, error) from None
+
+    def _commit(self, path: Path, **attributes: str) -> None:
+        """Add what waits, and these attributes, to the file: all of it or nothing.
+
+        Rows are added through h5py, as all that is special about NetCDF-4 is in the file by now.
+        """
+        import h5py
+
+        last = self._written + len(self._waiting)
+        with _successor(path) as draft:
+            shutil.copyfile(path, draft)
+            with h5py.File(draft, "r+") as file:
+                for name, column in self._columns(self._waiting).items():
+                    file[name].resize(last, axis=0)
+                    file[name][self._written :] = column
+                for name, value in running_attributes(self._last).items():
+                    file.attrs.modify(name, value)
+                file.attrs.update(attributes)
+        self._written = last
+        self._waiting.clear()
+
+    def _lay_out(self, path: Path) -> None:
+        """Write a file with all that is known from the start, and no records."""
+        import h5netcdf
+
+        lengths, constants = sizes(self.info), self._constants()
+        if not constants:
+            lengths.pop("centreline_point")
+        with h5netcdf.File(path, "w") as file:
+            file.dimensions = {"time": None, **lengths}
+            for name, value in self._attributes.items():
+                file.attrs[name] = value
+            for name, variable in VARIABLES.items():
+                shape = tuple(lengths[dim] for dim in variable.dims[1:])
+                rows = max(1, CHUNK_BYTES // (variable.dtype.itemsize * int(np.prod(shape))))
+                # What is missing is NaN, not zero; coordinates have no fill value.
+                fill = np.nan if variable.dtype == FLOAT and name != "time" else None
+                made = file.create_variable(
+                    name, variable.dims, variable.dtype, chunks=(rows, *shape), fillvalue=fill
+                )
+                notes = {"units": variable.units, "long_name": variable.long_name}
+                made.attrs.update(notes | dict(variable.extra))
+            for name, constant in constants.items():
+                made = file.create_variable(name, constant.dims, constant.dtype)
+                made[...] = constant.read(self.info)
+                made.attrs.update({"units": constant.units, "long_name": constant.long_name})
+
+
+def _unwritable(path: Path, error: OSError) -> ResultError:
+    reason = (error.strerror or str(error)).lower()
+    return ResultError(f"Result file '{path}' cannot be written: {reason}.")
+
+
+@contextmanager
+def _successor(path: Path) -> Iterator[Path]:
+    """A draft next to the file that takes its place in one step, if nothing goes wrong."""
+    draft = path.with_name(f".{path.name}.draft")
+    try:
+        yield draft
+        draft.replace(path)
+    finally:
+        draft.unlink(missing_ok=True)

@@ -1,0 +1,99 @@
+"""A scenario turned into models, ready to run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from magwire.errors import InputError, ScenarioError
+from magwire.scenario.checks import refusals
+from magwire.simulation import Simulation
+
+if TYPE_CHECKING:
+    from magwire.engine.feed import Feed
+    from magwire.engine.record import Record
+    from magwire.results import Result
+    from magwire.scenario.model import Scenario
+
+
+@dataclass(frozen=True)
+class Job:
+    """What a scenario asks for.
+
+    Attributes
+    ----------
+    scenario
+        Where it comes from.
+    simulation
+        Wire, lumen, field, contact and surroundings.
+    feed
+        How the wire is fed.
+    time_step
+        [s].
+    record_every
+        Fed length between two records [m].
+    """
+
+    scenario: Scenario
+    simulation: Simulation
+    feed: Feed
+    time_step: float
+    record_every: float
+
+    @classmethod
+    def of(cls, scenario: Scenario) -> Job:
+        """Build the models.
+
+        Raises
+        ------
+        ScenarioError
+            If a model refuses what the scenario describes.
+        """
+        parts = (scenario.wire, scenario.lumen, scenario.field, scenario.contact, scenario.feed)
+        faults = [text for part in parts for text in refusals(part.build)]
+        if faults:
+            raise ScenarioError(faults)
+        try:
+            simulation = Simulation(
+                scenario.wire.build(),
+                scenario.lumen.build(),
+                field=scenario.field.build(),
+                contact=scenario.contact.build(),
+                damping=scenario.solver.damping,
+                gravity=scenario.environment.gravity,
+                fluid_density=scenario.environment.fluid_density,
+                release=scenario.solver.release,
+            )
+            feed = scenario.feed.build()
+        except InputError as error:
+            raise ScenarioError(str(error)) from error
+        return cls(
+            scenario=scenario,
+            simulation=simulation,
+            feed=feed,
+            time_step=scenario.solver.time_step,
+            record_every=scenario.output.record_every,
+        )
+
+    def run(
+        self, out: Path | None = None, *, watch: Callable[[Record], None] | None = None
+    ) -> Result:
+        """Run it.
+
+        Parameters
+        ----------
+        out
+            NetCDF file to write as the run goes; none if left out.
+        watch
+            Called with every record.
+        """
+        return self.simulation.run(
+            self.feed,
+            time_step=self.time_step,
+            record_every=self.record_every,
+            out=out,
+            scenario=self.scenario.to_toml(),
+            watch=watch,
+        )

@@ -1,0 +1,284 @@
+"""Fields of a scenario: text with a unit in the file, SI in the model."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from magwire import units
+from magwire.errors import InputError, received
+
+FAULT = "magwire"
+"""Error type whose message continues a sentence that starts with ``Input <key>``."""
+
+_SIGNS: dict[str, tuple[str, Callable[[float], bool]]] = {
+    "any": ("", lambda _: True),
+    "positive": ("positive", lambda x: x > 0.0),
+    "nonnegative": ("zero or positive", lambda x: x >= 0.0),
+}
+
+
+def fault(text: str) -> PydanticCustomError:
+    """The fault "Input <key> <text>", to be raised by a validator."""
+    return PydanticCustomError(FAULT, "{text}", {"text": text})
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One number with a unit.
+
+    Attributes
+    ----------
+    dimension
+        A key of ``magwire.units.DIMENSIONS``.
+    sign
+        "any", "positive" or "nonnegative".
+    """
+
+    dimension: str
+    sign: str = "any"
+
+    @property
+    def expected(self) -> str:
+        """What a well-formed value is, for messages."""
+        kind = units.DIMENSIONS[self.dimension]
+        return f"a {kind.name} such as '{kind.example}'"
+
+    def read(self, value: object) -> float:
+        """The value in SI; raises the fault if it is not of this kind."""
+        try:
+            number = units.parse(value, self.dimension)
+        except InputError as error:
+            raise fault(str(error).removeprefix("Input value ").removesuffix(".")) from None
+        expected, fits = _SIGNS[self.sign]
+        if not fits(number):
+            raise fault(f"must be {expected}; received {value}")
+        return number
+
+    def write(self, value: float) -> str:
+        """Text that reads back to the same number."""
+        return units.write(value, self.dimension)
+
+    def schema(self) -> JsonSchemaValue:
+        """JSON schema of the text."""
+        kind = units.DIMENSIONS[self.dimension]
+        note = f"{kind.name}, in one of: {', '.join(kind.units)}"
+        return {"type": "string", "description": note, "examples": [kind.example]}
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        return _core_schema(self.read, self.write)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        return self.schema()
+
+
+@dataclass(frozen=True)
+class Row:
+    """A list of a fixed number of quantities: a vector, or a row of a table.
+
+    Attributes
+    ----------
+    columns
+        What each entry is.
+    scalar
+        Entry that a lone quantity stands for, the others being zero; none if left out.
+    """
+
+    columns: tuple[Quantity, ...]
+    scalar: int | None = None
+
+    @property
+    def expected(self) -> str:
+        """What a well-formed value is, for messages."""
+        example = ", ".join(f"'{units.DIMENSIONS[c.dimension].example}'" for c in self.columns)
+        return f"a list such as [{example}]"
+
+    def read(self, value: object) -> tuple[float, ...]:
+        """The entries in SI; raises the fault of the first entry that has one."""
+        if self.scalar is not None and not isinstance(value, list):
+            row = [0.0] * len(self.columns)
+            row[self.scalar] = self.columns[self.scalar].read(value)
+            return tuple(row)
+        if not isinstance(value, list):
+            raise fault(f"must be {self.expected}; received {received(value)}")
+        if len(value) != len(self.columns):
+            raise fault(f"must have {len(self.columns)} entries; received {len(value)}")
+        return tuple(c.read(entry) for c, entry in zip(self.columns, value, strict=True))
+
+    def write(self, value: tuple[float, ...]) -> list[str]:
+        """Texts that read back to the same numbers."""
+        return [c.write(entry) for c, entry in zip(self.columns, value, strict=True)]
+
+    def schema(self) -> JsonSchemaValue:
+        """JSON schema of the list, or of the list and the lone quantity."""
+        row: JsonSchemaValue = {
+            "type": "array",
+            "prefixItems": [c.schema() for c in self.columns],
+            "minItems": len(self.columns),
+            "maxItems": len(self.columns),
+        }
+        if self.scalar is None:
+            return row
+        return {"anyOf": [self.columns[self.scalar].schema(), row]}
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        return _core_schema(self.read, self.write)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        return self.schema()
+
+
+@dataclass(frozen=True)
+class Rows:
+    """A list of rows, at least ``least`` and at most ``most`` of them."""
+
+    row: Row
+    least: int = 1
+    most: int | None = None
+
+    @property
+    def expected(self) -> str:
+        """What a well-formed value is, for messages."""
+        return f"a list of rows, each {self.row.expected}"
+
+    def read(self, value: object) -> tuple[tuple[float, ...], ...]:
+        """The rows in SI; raises the fault of the first row that has one."""
+        if not isinstance(value, list):
+            raise fault(f"must be {self.expected}; received {received(value)}")
+        if len(value) < self.least:
+            raise fault(f"must have at least {self.least} rows; received {len(value)}")
+        if self.most is not None and len(value) > self.most:
+            raise fault(f"must have at most {self.most} rows; received {len(value)}")
+        rows = []
+        for number, entry in enumerate(value, start=1):
+            try:
+                rows.append(self.row.read(entry))
+            except PydanticCustomError as error:
+                raise fault(f"(row {number}) {error.message()}") from None
+        return tuple(rows)
+
+    def write(self, value: tuple[tuple[float, ...], ...]) -> list[list[str]]:
+        """Rows of texts that read back to the same numbers."""
+        return [self.row.write(row) for row in value]
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        return _core_schema(self.read, self.write)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        return {"type": "array", "items": self.row.schema(), "minItems": self.least}
+
+
+@dataclass(frozen=True)
+class OneOrEach:
+    """One quantity for all, or a list with one for each."""
+
+    item: Quantity
+
+    @property
+    def expected(self) -> str:
+        """What a well-formed value is, for messages."""
+        return f"{self.item.expected} or a list of them"
+
+    def read(self, value: object) -> tuple[float, ...]:
+        """The values in SI, a single one for "all the same"."""
+        if not isinstance(value, list):
+            return (self.item.read(value),)
+        if not value:
+            raise fault("must have at least one entry; received none")
+        return tuple(self.item.read(entry) for entry in value)
+
+    def write(self, value: tuple[float, ...]) -> str | list[str]:
+        """Text or texts that read back to the same numbers."""
+        texts = [self.item.write(entry) for entry in value]
+        return texts[0] if len(texts) == 1 else texts
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        return _core_schema(self.read, self.write)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        item = self.item.schema()
+        return {"anyOf": [item, {"type": "array", "items": item, "minItems": 1}]}
+
+
+@dataclass(frozen=True)
+class Whole:
+    """A whole number without a unit, from ``minimum`` to ``maximum``."""
+
+    minimum: int
+    maximum: int
+
+    @property
+    def expected(self) -> str:
+        """What a well-formed value is, for messages."""
+        return f"a whole number from {self.minimum} to {self.maximum}"
+
+    def read(self, value: object) -> int:
+        """The number; raises the fault if it is no whole number or too small."""
+        if isinstance(value, float) and math.isfinite(value) and value == int(value):
+            value = int(value)
+        if isinstance(value, bool) or not isinstance(value, int):
+            raise fault(f"must be a whole number without a unit; received {received(value)}")
+        if value < self.minimum:
+            raise fault(f"must be at least {self.minimum}; received {value}")
+        if value > self.maximum:
+            raise fault(f"must be at most {self.maximum}; received {value}")
+        return value
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        return {"type": "integer", "minimum": self.minimum, "maximum": self.maximum}
+
+
+def _core_schema(read: Callable[[Any], Any], write: Callable[[Any], Any]) -> CoreSchema:
+    return core_schema.no_info_plain_validator_function(
+        read, serialization=core_schema.plain_serializer_function_ser_schema(write)
+    )
+
+
+def _vector(dimension: str) -> Row:
+    return Row((Quantity(dimension),) * 3)
+
+
+Length = Annotated[float, Quantity("length", "positive")]
+LengthOrZero = Annotated[float, Quantity("length", "nonnegative")]
+Time = Annotated[float, Quantity("time", "positive")]
+Speed = Annotated[float, Quantity("speed", "positive")]
+Pressure = Annotated[float, Quantity("pressure", "positive")]
+Density = Annotated[float, Quantity("density", "positive")]
+DensityOrZero = Annotated[float, Quantity("density", "nonnegative")]
+Rate = Annotated[float, Quantity("rate", "nonnegative")]
+Angle = Annotated[float, Quantity("angle")]
+Vector3 = tuple[float, float, float]
+FluxDensity = Annotated[Vector3, _vector("flux_density")]
+Place = Annotated[Vector3, _vector("length")]
+Acceleration = Annotated[Vector3, _vector("acceleration")]
+Magnetization = Annotated[Vector3, Row((Quantity("magnetization"),) * 3, scalar=2)]
+RestCurvature = Annotated[tuple[float, float], Row((Quantity("curvature"),) * 2)]

@@ -1,0 +1,204 @@
+"""The documentation says what the code says."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+import tomli_w
+
+ROOT = Path(__file__).parent.parent
+THEORY = ROOT / "docs" / "theory"
+LABELS = tuple(range(1, 24))
+
+CITED = re.compile(r"\(P-(\d+)(?:\s*(?:\.\.\.?|to|-)\s*P-(\d+))?")
+LISTED = re.compile(r"\bP-(\d+)\b")
+TARGET = re.compile(r"^\(p-(\d+)\)=$", re.MULTILINE)
+HEADING = re.compile(r"^## \(P-(\d+)\) \S", re.MULTILINE)
+LINK = re.compile(r"\]\(#p-(\d+)\)")
+
+
+def theory_targets() -> list[int]:
+    """Labels that the theory pages define, one entry for each definition."""
+    pages = sorted(THEORY.glob("*.md"))
+    return [int(n) for page in pages for n in TARGET.findall(page.read_text(encoding="utf-8"))]
+
+
+def labels_in(text: str) -> set[int]:
+    """Labels that a text cites; a range counts with all that is between its ends."""
+    cited = {int(n) for n in LISTED.findall(text)}
+    for first, last in CITED.findall(text):
+        cited |= set(range(int(first), int(last or first) + 1))
+    return cited
+
+
+def test_every_label_has_one_place() -> None:
+    assert sorted(theory_targets()) == list(LABELS)
+
+
+@pytest.mark.parametrize("page", sorted(THEORY.glob("*.md")), ids=lambda page: page.stem)
+def test_targets_and_headings_agree(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    assert TARGET.findall(text) == HEADING.findall(text)
+
+
+@pytest.mark.parametrize(
+    "source",
+    [*sorted((ROOT / "src").rglob("*.py")), *sorted((ROOT / "examples").glob("*.py"))],
+    ids=lambda path: path.relative_to(ROOT).as_posix(),
+)
+def test_cited_labels_exist(source: Path) -> None:
+    missing = labels_in(source.read_text(encoding="utf-8")) - set(theory_targets())
+    assert not missing
+
+
+def test_links_to_labels_exist() -> None:
+    pages = sorted((ROOT / "docs").rglob("*.md"))
+    linked = {int(n) for page in pages for n in LINK.findall(page.read_text(encoding="utf-8"))}
+    assert linked <= set(theory_targets())
+
+
+def test_theory_pages_are_in_the_contents() -> None:
+    contents = (THEORY / "index.md").read_text(encoding="utf-8").splitlines()
+    assert {page.stem for page in THEORY.glob("*.md")} - {"index"} <= set(contents)
+
+
+PAGES_WITH_COMMANDS = ("README.md", "CONTRIBUTING.md", "docs/tutorial.md", "docs/index.md")
+
+
+def commands(program: str) -> set[str]:
+    """First word after a program's name in the shell blocks of the pages."""
+    found = set()
+    for page in PAGES_WITH_COMMANDS:
+        text = (ROOT / page).read_text(encoding="utf-8")
+        for block in re.findall(r"```(?:sh|console|bash)\n(.*?)```", text, re.DOTALL):
+            found |= set(re.findall(rf"^\$?\s*{program} (\S+)", block, re.MULTILINE))
+    return found
+
+
+def test_make_targets_exist() -> None:
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    targets = set(re.findall(r"^([a-z]+):", makefile, re.MULTILINE))
+    named = commands("make")
+    assert {"demo", "test"} <= named
+    assert named <= targets
+
+
+def test_magwire_commands_exist() -> None:
+    from magwire.cli import app
+
+    named = commands("magwire")
+    assert "run" in named
+    for command in named:
+        assert app[command] is not None
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/tutorial.md"])
+def test_python_examples_run(
+    page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = (ROOT / page).read_text(encoding="utf-8")
+    blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    assert blocks
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, object] = {}
+    for block in blocks:
+        exec(compile(block, page, "exec"), names)
+    assert capsys.readouterr().out.startswith("complete ")
+
+
+def scenario_keys() -> set[str]:
+    """All keys that a scenario file may have."""
+    from magwire.scenario import json_schema
+
+    schema = json_schema()
+    tables = [schema, *schema["$defs"].values()]
+    return {key for table in tables for key in table.get("properties", {})}
+
+
+def test_scenario_page_has_every_key() -> None:
+    text = (ROOT / "docs" / "scenarios.md").read_text(encoding="utf-8")
+    missing = {
+        key for key in scenario_keys() if f"`{key}`" not in text and f"`[{key}]`" not in text
+    }
+    assert not missing
+
+
+def toml_blocks() -> list[str]:
+    """Whole scenarios among the examples of the scenario page."""
+    text = (ROOT / "docs" / "scenarios.md").read_text(encoding="utf-8")
+    return re.findall(r"```toml\n(.*?)```", text, re.DOTALL)
+
+
+@pytest.mark.parametrize("number", range(5))
+def test_scenario_page_examples_are_valid(number: int, tmp_path: Path) -> None:
+    from magwire.scenario import parse
+
+    complete = tomllib.loads(toml_blocks()[0])
+    part = tomllib.loads(toml_blocks()[number])
+    (tmp_path / "vessel.csv").write_text(
+        "x,y,z,radius\n0,0,0,3\n40,0,0,3\n80,5,0,3\n120,15,0,3\n", encoding="utf-8"
+    )
+    if part.get("lumen", {}).get("shape") == "points":
+        part["feed"] = {"speed": "1 mm/s", "distance": "50 mm"}
+    text = tomli_w.dumps({**complete, **part})
+    assert parse(text, folder=tmp_path) is not None
+
+
+def test_results_page_has_every_variable_and_attribute() -> None:
+    from magwire.results import contract
+
+    text = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
+    names = {
+        *contract.VARIABLES,
+        *contract.CONSTANTS,
+        *(dim for v in contract.VARIABLES.values() for dim in v.dims),
+        *(dim for c in contract.CONSTANTS.values() for dim in c.dims),
+        *contract.running_attributes(None),
+    }
+    assert not {name for name in names if f"`{name}`" not in text}
+
+
+PEAKS = re.compile(r"^\| `([a-z-]+)` \| ([0-9.]+) \| [0-9.]+ \|$", re.MULTILINE)
+
+
+def printed_peaks(page: str) -> dict[str, float]:
+    """Peak forces in the table of passive pushing, by scenario."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    return {name: float(value) for name, value in PEAKS.findall(text)}
+
+
+def test_pages_print_the_same_peaks() -> None:
+    assert printed_peaks("README.md") == printed_peaks("docs/validation.md")
+
+
+@pytest.mark.parametrize("name", sorted(printed_peaks("README.md")))
+def test_printed_peaks_are_what_magwire_finds(name: str) -> None:
+    from magwire.scenario import load
+
+    result = load(name).build().run()
+    peak = result.max_tip_force / result.force_scale
+    assert printed_peaks("README.md")[name] == pytest.approx(peak, abs=0.051)
+
+
+def test_readme_links_exist() -> None:
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    for target in re.findall(r"\]\(((?!https?:|#)[^)]+)\)", text):
+        assert (ROOT / target).exists(), target
+
+
+def test_api_page_lists_every_public_name() -> None:
+    import magwire
+
+    listed = (ROOT / "docs" / "api.md").read_text(encoding="utf-8").split()
+    assert {name for name in magwire.__all__ if not name.startswith("_")} <= set(listed)
+
+
+def test_citation_and_changelog_carry_the_version() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    assert f"version: {project['version']}\n" in citation
+    assert f"## {project['version']}" in changelog

@@ -1,0 +1,59 @@
+"""Every example runs, and those with a closed form agree with it."""
+
+from __future__ import annotations
+
+import runpy
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+EXAMPLES = Path(__file__).parent.parent / "examples"
+Names = dict[str, Any]
+
+
+def magnetic_cantilever(names: Names) -> None:
+    assert names["error"] < 1e-4
+    assert np.degrees(names["expected"][3]) == pytest.approx(44.79, abs=0.005)
+    assert all(state.stable for state in names["states"])
+
+
+def antiparallel_buckling(names: Names) -> None:
+    assert names["errors"][-1] < 1e-3
+    assert names["order"] == pytest.approx(2.0, abs=0.1)
+
+
+def half_circle(names: Names) -> None:
+    assert names["result"].status == "complete"
+    assert names["clearance"] > 0.0
+    assert names["peak"] == pytest.approx(20.8, rel=0.1)
+
+
+def own_wire(names: Names) -> None:
+    assert names["result"].status == "complete"
+    assert names["turned"] == pytest.approx(names["expected"], rel=1e-3)
+
+
+CHECKS: dict[str, Callable[[Names], None]] = {
+    "plot_magnetic_cantilever": magnetic_cantilever,
+    "plot_antiparallel_buckling": antiparallel_buckling,
+    "plot_half_circle": half_circle,
+    "plot_own_wire": own_wire,
+}
+
+
+def test_every_example_has_a_check() -> None:
+    assert {path.stem for path in EXAMPLES.glob("*.py")} == set(CHECKS)
+
+
+@pytest.mark.parametrize("name", sorted(CHECKS))
+def test_example(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    import matplotlib.pyplot as plt
+
+    monkeypatch.setattr(plt, "show", lambda: None)
+    try:
+        CHECKS[name](runpy.run_path(str(EXAMPLES / f"{name}.py")))
+    finally:
+        plt.close("all")
