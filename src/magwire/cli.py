@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import json
 import math
-import signal
 import sys
-import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import App, CycloptsError, Parameter
@@ -187,44 +184,11 @@ def simulate(job: Job, file: Path) -> Result | None:
     """Run a job with a progress bar; None if it was interrupted before its first record."""
     from magwire.results import Result
 
-    with progress(job.feed.duration) as show, patience() as interrupted:
-
-        def watch(record: Record) -> None:
-            show(record)
-            if interrupted():
-                raise KeyboardInterrupt
-
+    with progress(job.feed.duration) as show:
         try:
-            return job.run(file, watch=watch)
+            return job.run(file, watch=show)
         except KeyboardInterrupt:  # the file says "interrupted" by now
             return Result.load(file) if file.exists() else None
-
-
-@contextmanager
-def patience() -> Iterator[Callable[[], bool]]:
-    """Let the first Ctrl-C wait for the next record; the second one strikes at once.
-
-    Yields
-    ------
-    callable
-        Whether there was one.
-    """
-    pressed = False
-    former = signal.getsignal(signal.SIGINT)
-
-    def press(number: int, frame: FrameType | None) -> None:
-        nonlocal pressed
-        pressed = True
-        signal.signal(signal.SIGINT, former)
-
-    if threading.current_thread() is not threading.main_thread():
-        yield lambda: False  # signals are none of our business here
-        return
-    signal.signal(signal.SIGINT, press)
-    try:
-        yield lambda: pressed
-    finally:
-        signal.signal(signal.SIGINT, former)
 
 
 @contextmanager

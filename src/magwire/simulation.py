@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from magwire.contact import Barrier
 from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
+from magwire.engine.interrupt import held_back_interrupt
 from magwire.engine.record import Record, RunInfo
 from magwire.engine.statics import Equilibrium, find_equilibrium
 from magwire.engine.system import Release, System
@@ -121,11 +122,13 @@ class Simulation:
         march = March(self.system, self.field, feed, time_step=time_step)
         interval = record_every / feed.fastest if feed.fastest > 0.0 else feed.duration
         every = max(1, round(interval / time_step))
-        with Writer(self.info(title=title, scenario=scenario), out) as writer:
+        info = self.info(title=title, scenario=scenario)
+        with Writer(info, out) as writer, held_back_interrupt() as strike:
             for record in march.records(every):
                 writer.append(record)
                 if watch is not None:
                     watch(record)
+                strike()
             converged = march.step == march.steps
             writer.close("complete" if converged else "not converged", march.message)
         return writer.result()

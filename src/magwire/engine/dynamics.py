@@ -15,10 +15,10 @@ from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.errors import InputError, positive
 from magwire.field import FieldSource
-from magwire.kernels.arrays import Field
+from magwire.kernels.arrays import Field, Mouth
 from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.march import Plan, Tally, march
-from magwire.kernels.newton import CONVERGED, Outcome, copy_state
+from magwire.kernels.newton import CONVERGED, copy_state
 from magwire.kernels.observe import observe
 
 Array = NDArray[np.float64]
@@ -101,10 +101,10 @@ class March:
         """Do at most this many more time steps; whether all of them converged."""
         last = min(self.step + steps, self.steps)
         while self.step < last:
-            done, outcome = self._some(last) if self.source.affine else self._one()
+            done, status = self._some(last) if self.source.affine else self._one()
             self.step += done
-            if outcome.status != CONVERGED:
-                self.status = Status(outcome.status)
+            if status != CONVERGED:
+                self.status = Status(status)
                 self.message = (
                     f"The step to {self._fed(self.step + 1) * 1e3:.4g} mm of feed did not "
                     f"converge, even when cut into {2**6} parts: {self.status.remedy}."
@@ -112,9 +112,9 @@ class March:
                 return False
         return True
 
-    def _some(self, last: int) -> tuple[int, Outcome]:
+    def _some(self, last: int) -> tuple[int, int]:
         """Steps up to ``last`` without leaving compiled code."""
-        done, self._held, outcome = march(
+        done, self._held, status = march(
             self._model(),
             self.system.guide,
             self._state,
@@ -127,28 +127,28 @@ class March:
             self._held,
             self._tally,
         )
-        return done, outcome
+        return done, status
 
-    def _one(self) -> tuple[int, Outcome]:
+    def _one(self) -> tuple[int, int]:
         """One step in a field that is sampled until the wire stays where it was sampled."""
         before, velocity = self.system.new_state(), self._velocity.copy()
         held = self._held
         copy_state(self._state, before, held)
         tally = Tally(self._tally.counts.copy(), self._tally.forces.copy())
         for _ in range(SAMPLINGS):
-            done, outcome = self._some(self.step + 1)
-            if outcome.status != CONVERGED:
-                return done, outcome
+            done, status = self._some(self.step + 1)
+            if status != CONVERGED:
+                return done, status
             field = sample(self.system, self.source, self._state)
             if mismatch(self.system, self._field, field, self._held) <= self._limits.tolerance:
-                return done, outcome
+                return done, status
             self._field = field
             copy_state(before, self._state, held)
             self._velocity[:] = velocity
             self._held = held
             self._tally.counts[0] = tally.counts[0]
             self._tally.forces[:] = tally.forces
-        return 0, Outcome(Status.TOO_MANY_ITERATIONS, 0, 0, float("inf"), 0)
+        return 0, int(Status.TOO_MANY_ITERATIONS)
 
     def _model(self) -> tuple[object, ...]:
         return (self.system.rod, self._field, self._wall, self.system.walls)
@@ -181,7 +181,7 @@ class March:
         scales = system.scales
         feed = float(self._plan.feed[self.step])
         twist = float(self._plan.twist[self.step])
-        mouth = find_mouth(system.rod, system.guide, feed)
+        mouth = Mouth(*find_mouth(system.rod, system.guide, feed))
         place_held(system.rod, system.guide, state, 0, mouth.held, feed, twist)
         nodes = len(state.q)
         forces, clearance = np.zeros((nodes, 3)), np.zeros(nodes)

@@ -14,7 +14,7 @@ from magwire.engine.status import Status
 from magwire.engine.system import MANY_ITERATIONS, SHARP_TOLERANCE, System
 from magwire.errors import ConvergenceError, finite, within
 from magwire.field import FieldSource
-from magwire.kernels.arrays import Motion, State
+from magwire.kernels.arrays import Motion, Mouth, State
 from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.hinge import transport
 from magwire.kernels.march import Plan, Tally, march
@@ -116,7 +116,7 @@ def find_equilibrium(
     feed = within("Simulation", "feed", feed, "m", low=0.0, high=system.wire.length)
     twist = finite("Simulation", "twist", twist, "rad")
     part = feed / system.wire.length
-    mouth = find_mouth(system.rod, system.guide, part)
+    mouth = Mouth(*find_mouth(system.rod, system.guide, part))
     held = mouth.held
     if start is None:
         state = lay_on_centreline(system, held, part, twist)
@@ -129,11 +129,11 @@ def find_equilibrium(
     samples = sample(system, source, state)
     for _ in range(SAMPLINGS if held < system.wire.nodes else 0):
         model = (system.rod, samples, wall, system.walls)
-        outcome = newton(model, state, mouth, Motion(0.0, work.target), work, limits)
-        iterations += outcome.iterations
-        residual = outcome.residual
-        if outcome.status != Status.CONVERGED:
-            raise _failure(system, feed, Status(outcome.status).remedy, state)
+        still = Motion(0.0, work.target)
+        status, taken, _, residual, _ = newton(model, state, mouth, still, work, limits)
+        iterations += taken
+        if status != Status.CONVERGED:
+            raise _failure(system, feed, Status(status).remedy, state)
         used, samples = samples, sample(system, source, state)
         if source.affine or mismatch(system, used, samples, held) <= limits.tolerance:
             break
@@ -197,12 +197,12 @@ def follow(
     samples = sample(system, source, state)
     for k in range(steps):
         model = (system.rod, samples, wall, system.walls)
-        done, held, outcome = march(
+        done, held, status = march(
             model, system.guide, state, velocity, work, system.limits(), plan, k, k + 1, held, tally
         )
         if done == 0:
             reached = float(plan.feed[k]) * system.wire.length
-            raise _failure(system, reached, Status(outcome.status).remedy, state)
+            raise _failure(system, reached, Status(status).remedy, state)
         if not source.affine:
             samples = sample(system, source, state)
     return state

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from magwire.kernels._jit import kernel
-from magwire.kernels.arrays import Mouth
 from magwire.kernels.hinge import reference_twist
 from magwire.kernels.vectors import row
 
@@ -25,9 +24,9 @@ def find_mouth(rod, guide, feed):
             low = middle + 1
     if not guide.sliding:
         held = low if ends[low] <= entrance else low - 1
-        return Mouth(max(held, 1), 1.0)
+        return max(held, 1), 1.0
     cell = rod.cell_end[low] - rod.cell_end[low - 1]
-    return Mouth(low, max(SMALLEST_PART, (rod.cell_end[low] - entrance) / cell))
+    return low, max(SMALLEST_PART, (rod.cell_end[low] - entrance) / cell)
 
 
 @kernel

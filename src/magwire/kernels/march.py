@@ -6,11 +6,11 @@ from math import sqrt
 from typing import NamedTuple
 
 from magwire.kernels._jit import kernel, part
-from magwire.kernels.arrays import Array, Motion
+from magwire.kernels.arrays import Array, Motion, Mouth
 from magwire.kernels.assembly import press, update_frames
 from magwire.kernels.collision import allowed_part
 from magwire.kernels.guide import change_held, find_mouth, place_held
-from magwire.kernels.newton import CONVERGED, Outcome, copy_state, newton
+from magwire.kernels.newton import CONVERGED, copy_state, newton
 from magwire.kernels.vectors import dot, row
 
 RETRIES = 6  # a step may be cut in half this many times
@@ -81,14 +81,13 @@ def time_step(model, guide, state, velocity, work, limits, before, start, end, d
     """
     rod, _, wall, lumen = model
     nodes = state.q.shape[0]
-    mouth = find_mouth(rod, guide, end[0])
-    held = mouth.held
+    held, fraction = find_mouth(rod, guide, end[0])
     drive = (start[0], start[1], (end[0] - start[0]) / dt, (end[1] - start[1]) / dt)
     change_held(rod, guide, state, velocity, before, held, drive)
     copy_state(state, work.ahead, held)
     if held == nodes - 1:
         place_held(rod, guide, work.ahead, 0, held, end[0], end[1])
-        return Outcome(CONVERGED, 0, 0, 0.0, 0), held
+        return (CONVERGED, 0, 0, 0.0, 0), held
     drag = 1.0 + plan.damping * dt
     if not plan.inertia:
         follow_tangents(state, velocity, held, drive[2])
@@ -99,6 +98,7 @@ def time_step(model, guide, state, velocity, work, limits, before, start, end, d
     place_held(rod, guide, work.ahead, held - 1, held, end[0], end[1])
     update_frames(state, work.ahead, held)
     motion = Motion(drag / (dt * dt) if plan.inertia else 0.0, work.target)
+    mouth = Mouth(held, fraction)
     return newton(model, work.ahead, mouth, motion, work, limits), held
 
 
@@ -115,9 +115,9 @@ def accept(state, velocity, work, held, dt):
 def march(model, guide, state, velocity, work, limits, plan, first, last, held, tally):
     """Time steps first ... last - 1; a step that fails is cut in half a bounded number of times.
 
-    Returns the steps done, the last held node and how the last step ended.
+    Returns the steps done, the last held node and how the last step ended: plain numbers, since an
+    interrupt that arrives here would break the making of any other object.
     """
-    outcome = Outcome(CONVERGED, 0, 0, 0.0, 0)
     for k in range(first, last):
         halvings = 0
         done = 0.0
@@ -129,16 +129,17 @@ def march(model, guide, state, velocity, work, limits, plan, first, last, held, 
             outcome, held = time_step(
                 model, guide, state, velocity, work, limits, held, start, end, dt, plan
             )
-            tally.counts[1] += outcome.iterations
-            tally.counts[2] += outcome.factorisations
-            if outcome.status != CONVERGED:
+            status, iterations, factorisations, _, felt = outcome
+            tally.counts[1] += iterations
+            tally.counts[2] += factorisations
+            if status != CONVERGED:
                 if halvings == RETRIES:
-                    return k - first, held, outcome
+                    return k - first, held, status
                 halvings += 1
                 tally.counts[3] += 1
                 continue
             accept(state, velocity, work, held, dt)
-            touching = max(touching, outcome.touching)
+            touching = max(touching, felt)
             done += share
         tally.counts[0] += 1
         if touching > 0:
@@ -147,7 +148,7 @@ def march(model, guide, state, velocity, work, limits, plan, first, last, held, 
             tally.forces[1] += size
             if tally.forces[2] < 0.0:
                 tally.forces[2] = plan.feed[k + 1]
-    return last - first, held, outcome
+    return last - first, held, CONVERGED
 
 
 @kernel

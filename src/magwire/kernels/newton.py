@@ -30,16 +30,6 @@ class Limits(NamedTuple):
     shift: float
 
 
-class Outcome(NamedTuple):
-    """How Newton ended: status, iterations, factorisations, residual, points at the wall."""
-
-    status: int
-    iterations: int
-    factorisations: int
-    residual: float
-    touching: int
-
-
 @kernel
 def residual(gradient, held):
     """Largest force or moment on a free unknown; NaN counts as infinite."""
@@ -127,7 +117,17 @@ def copy_state(source, target, held):
 
 @kernel
 def newton(model, state, mouth, motion, work, limits):
-    """Minimise the energy from ``state``, which ends as the last iterate, converged or not."""
+    """Minimise the energy from ``state``, which ends as the last iterate, converged or not.
+
+    Returns
+    -------
+    status, iterations, factorisations
+        How it ended, and counts.
+    residual
+        Largest force or moment left on a free unknown.
+    touching
+        How many nodes feel the wall.
+    """
     rod, _, wall, lumen = model
     held = mouth.held
     a, b = work.trial, work.spare
@@ -168,4 +168,4 @@ def newton(model, state, mouth, motion, work, limits):
             energy = lower
             size = residual(work.gradient, held)
     copy_state(a, state, held)
-    return Outcome(status, iteration, factorisations, size, touching)
+    return status, iteration, factorisations, size, touching

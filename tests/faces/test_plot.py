@@ -1,0 +1,113 @@
+"""Pictures of results: what is on them, not how they look."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.image import imread
+
+from magwire import plot
+from magwire.engine.record import RunInfo
+from magwire.plot import shapes
+from magwire.results import Result, Writer
+from records import helix, info, records
+
+
+def made(run: RunInfo, count: int = 73, *, status: str = "complete") -> xr.Dataset:
+    writer = Writer(run)
+    for record in records(run, count):
+        writer.append(record)
+    writer.close(status)
+    return writer.result().dataset
+
+
+def test_png_and_svg_at_paper_size(tmp_path: Path) -> None:
+    paths = plot.save(made(info()), tmp_path)
+    assert [path.name for path in paths] == ["figure.png", "figure.svg"]
+    height, width = imread(paths[0]).shape[:2]
+    assert width == pytest.approx(180.0 / 25.4 * 300, abs=1)
+    assert height > 0.4 * width
+
+
+def test_same_result_same_picture(tmp_path: Path) -> None:
+    data = made(info(), 5)
+    first = [path.read_bytes() for path in plot.save(data, tmp_path, "a")]
+    assert first == [path.read_bytes() for path in plot.save(data, tmp_path, "b")]
+
+
+def test_settings_of_others_are_left_alone() -> None:
+    before = dict(mpl.rcParams)
+    plot.draw(made(info(), 5))
+    assert dict(mpl.rcParams) == before
+
+
+def test_planar_case_has_four_flat_panels() -> None:
+    figure = plot.draw(made(info(title="Half-circle")))
+    axes = figure.get_axes()
+    assert not any(ax.name == "3d" for ax in axes)
+    labels = {ax.get_ylabel() for ax in axes}
+    assert {"y [mm]", "field [mT]", "clearance [mm]", r"tip force  $\mathcal{F}$"} <= labels
+    assert any("Half-circle" in ax.get_title(loc="left") for ax in axes)
+
+
+def test_helix_is_drawn_in_space() -> None:
+    figure = plot.draw(made(info(helix())))
+    assert sum(ax.name == "3d" for ax in figure.get_axes()) == 1
+
+
+def test_title_tells_of_an_early_end() -> None:
+    figure = plot.draw(made(info(title="Bend"), 30, status="interrupted"))
+    titles = [ax.get_title(loc="left") for ax in figure.get_axes()]
+    assert any("Bend (interrupted at push 0.290)" in title for title in titles)
+
+
+def test_result_draws_itself(tmp_path: Path) -> None:
+    result = Result(made(info(), 20))
+    result.plot(tmp_path / "mine.pdf")
+    assert (tmp_path / "mine.pdf").read_bytes().startswith(b"%PDF")
+
+
+@pytest.mark.parametrize("count", [0, 1, 2], ids=["nothing", "one", "two"])
+@pytest.mark.parametrize("line", [None, helix(), np.zeros((0, 3))], ids=["plane", "space", "open"])
+def test_short_runs_can_be_drawn(count: int, line: np.ndarray | None) -> None:
+    plot.draw(made(info(line), count))
+
+
+def test_run_without_field_contact_and_magnet_can_be_drawn(tmp_path: Path) -> None:
+    data = made(info(), 8)
+    data["field"] = 0.0 * data["field"]
+    data["normalized_tip_force"] = 0.0 * data["normalized_tip_force"]
+    data["clearance"] = np.nan * data["clearance"]
+    data["clearance_midpoint"] = np.nan * data["clearance_midpoint"]
+    data.attrs["field_scale"] = np.nan
+    plot.save(data, tmp_path)
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_plane_is_found(axis: int) -> None:
+    line = np.roll(info().centreline, axis + 1, axis=1)
+    assert shapes.plane(made(info(line), 1)) == ((1, 2), (0, 2), (0, 1))[axis]
+
+
+def test_tilted_lumen_is_spatial() -> None:
+    line = info().centreline.copy()
+    line[:, 2] = 0.01 * line[:, 0]
+    assert shapes.plane(made(info(line), 1)) is None
+
+
+def test_snapshots_are_at_round_feeds() -> None:
+    data = made(info())
+    push = data["normalized_push"].values[shapes.snapshots(data)]
+    assert push == pytest.approx([0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7])
+
+
+def test_wide_lumen_shares_its_column() -> None:
+    line = np.column_stack([np.linspace(0.0, 0.1, 20), np.zeros(20), np.zeros(20)])
+    data = made(info(line, title="Tube"))
+    assert shapes.aspect(data) > 5.0
+    panels = [ax for ax in plot.draw(data).get_axes() if ax.get_title(loc="left")]
+    assert len(panels) == 4

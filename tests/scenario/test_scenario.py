@@ -1,0 +1,234 @@
+from __future__ import annotations
+
+import json
+import math
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from magwire.errors import ScenarioError
+from magwire.scenario import Scenario, json_schema, load, names, parse
+
+LIBRARY = (
+    "half-circle",
+    "half-circle-narrow",
+    "half-circle-wide",
+    "helix",
+    "sinusoid",
+    "straight",
+)
+
+
+def test_library_is_complete() -> None:
+    assert names() == LIBRARY
+
+
+@pytest.mark.parametrize("name", LIBRARY)
+def test_library_has_the_papers_wire(name: str) -> None:
+    scenario = load(name)
+    wire = scenario.wire
+    assert wire.length == 0.1
+    assert wire.nodes == 100
+    assert wire.radius == 0.6e-3
+    assert wire.magnetization == (0.0, 0.0, 128e3)
+    assert wire.magnetized_tip == 5e-3
+    bending = wire.youngs_modulus * math.pi * wire.radius**4 / 4.0
+    assert bending == pytest.approx(3.054e-7, rel=1e-3)
+    moment = wire.magnetization[2] * math.pi * wire.radius**2
+    assert moment == pytest.approx(0.1448, rel=1e-3)
+    assert scenario.contact.wall == "centreline"
+    assert scenario.contact.stiffness == 1e3
+    assert scenario.contact.activation_gap == 1e-4
+    assert scenario.solver.time_step == 0.01
+    assert scenario.feed.distance == 0.072
+    assert scenario.navigate.method == "none"
+    assert scenario.title
+    assert scenario.description.endswith(".")
+
+
+@pytest.mark.parametrize(
+    ("name", "ratio"),
+    [("half-circle-narrow", 0.04), ("half-circle", 0.06), ("half-circle-wide", 0.08)],
+)
+def test_half_circles_have_the_papers_widths(name: str, ratio: float) -> None:
+    scenario = load(name)
+    assert 2.0 * scenario.lumen.radius / scenario.wire.length == pytest.approx(ratio)
+
+
+@pytest.mark.parametrize("name", LIBRARY)
+def test_toml_is_complete_and_reads_back(name: str) -> None:
+    scenario = load(name)
+    text = scenario.to_toml()
+    assert parse(text) == scenario
+    tables = tomllib.loads(text)
+    assert set(tables) == set(Scenario.model_fields)
+    assert tables["wire"]["radius"] == "0.6 mm"
+    assert next(iter(tables["lumen"])) == "shape"
+
+
+def test_defaults_are_filled_in() -> None:
+    scenario = parse(
+        """
+        [wire]
+        length = "100 mm"
+        nodes = 50
+        radius = "0.6 mm"
+        youngs_modulus = "3 MPa"
+        shear_modulus = "1 MPa"
+        density = "2000 kg/m^3"
+        [lumen]
+        shape = "straight"
+        length = "0.1 m"
+        radius = "3 mm"
+        [feed]
+        speed = "1 mm/s"
+        distance = "5 cm"
+        """
+    )
+    assert scenario.contact.wall == "surface"
+    assert scenario.contact.stiffness == 1e3
+    assert scenario.field.flux_density == (0.0, 0.0, 0.0)
+    assert scenario.solver.release == "sliding"
+    assert scenario.environment.gravity == (0.0, 0.0, 0.0)
+    assert scenario.output.record_every == 1e-4
+
+
+@pytest.mark.parametrize(
+    ("override", "value"),
+    [
+        ("wire.radius=0.5 mm", 0.5e-3),
+        ("wire.radius = 0.5 mm", 0.5e-3),
+        ('wire.radius="0.5 mm"', 0.5e-3),
+        ("wire.radius='5e-1 mm'", 0.5e-3),
+    ],
+)
+def test_overrides_need_no_quotes(override: str, value: float) -> None:
+    assert load("half-circle", [override]).wire.radius == value
+
+
+def test_overrides_of_other_kinds() -> None:
+    scenario = load(
+        "half-circle",
+        [
+            "wire.nodes=80",
+            "title=A title = with more",
+            "field.flux_density=['1 mT', '0 mT', '2 mT']",
+            "environment.gravity=['0 m/s^2', '0 m/s^2', '-9.81 m/s^2']",
+        ],
+    )
+    assert scenario.wire.nodes == 80
+    assert scenario.title == "A title = with more"
+    assert scenario.field.flux_density == (1e-3, 0.0, 2e-3)
+    assert scenario.environment.gravity[2] == -9.81
+
+
+SECTIONED = """
+[wire]
+nodes = 60
+[[wire.sections]]
+length = "90 mm"
+radius = "0.6 mm"
+youngs_modulus = "3 MPa"
+shear_modulus = "1 MPa"
+density = "2000 kg/m^3"
+[[wire.sections]]
+length = "10 mm"
+radius = "0.5 mm"
+inner_radius = "0.2 mm"
+youngs_modulus = "1 MPa"
+shear_modulus = "0.3 MPa"
+density = "3000 kg/m^3"
+magnetization = ["1 kA/m", "0 kA/m", "100 kA/m"]
+rest_curvature = ["10 1/m", "0 1/m"]
+[lumen]
+shape = "half-circle"
+centreline_radius = "25 mm"
+radius = "3 mm"
+[field]
+kind = "gradient"
+gradient = [["1 T/m", "0 T/m", "0 T/m"], ["0 T/m", "-1 T/m", "0 T/m"], ["0 T/m", "0 T/m", "0 T/m"]]
+[feed]
+table = [["0 s", "0 mm/s"], ["1 s", "2 mm/s"], ["20 s", "2 mm/s"], ["25 s", "-2 mm/s"]]
+twist_table = [["0 s", "0 deg"], ["10 s", "90 deg"], ["30 s", "90 deg"]]
+"""
+
+
+def test_sections_gradient_and_tables() -> None:
+    scenario = parse(SECTIONED, ["wire.sections.1.radius=0.55 mm"])
+    assert scenario.wire.total_length == pytest.approx(0.1)
+    assert scenario.wire.sections[1].radius == 0.55e-3
+    assert scenario.wire.sections[1].rest_curvature == (10.0, 0.0)
+    assert parse(scenario.to_toml()) == scenario
+    lowest, highest = scenario.feed.extremes
+    assert lowest == 0.0
+    assert highest == pytest.approx(1e-3 + 38e-3 + 2.5e-3)
+    feed = scenario.feed.build()
+    assert feed.at(22.5) == pytest.approx(highest)
+    assert feed.twist_at(5.0) == pytest.approx(math.pi / 4)
+    assert feed.twist_at(25.0) == pytest.approx(math.pi / 2)
+    wire = scenario.wire.build()
+    assert wire.length == pytest.approx(0.1)
+    assert scenario.field.build().at(np.array([[1.0, 0.0, 0.0]]))[0][0] == pytest.approx([1, 0, 0])
+
+
+def test_points_from_a_file_end_up_in_the_scenario(tmp_path: Path) -> None:
+    (tmp_path / "line.csv").write_text(
+        "# a vessel\nradius, x, y, z\n" + "".join(f"{3 + 0.01 * k},{k},0,0.5\n" for k in range(90))
+    )
+    text = (
+        load("straight")
+        .to_toml()
+        .replace(
+            '[lumen]\nshape = "straight"\nentry = "0 mm"\nradius = "3 mm"\nlength = "100 mm"\n',
+            '[lumen]\nshape = "points"\nfile = "line.csv"\nunits = "mm"\nentry = "5 mm"\n',
+        )
+    )
+    (tmp_path / "vessel.toml").write_text(text)
+    scenario = load(tmp_path / "vessel.toml")
+    assert len(scenario.lumen.points) == 90
+    assert scenario.lumen.points[7] == (7e-3, 0.0, 0.5e-3)
+    assert scenario.lumen.radius[10] == 3.1e-3
+    assert scenario.lumen.narrowest == 3e-3
+    assert parse(scenario.to_toml()) == scenario  # needs the CSV file no more
+    assert scenario.lumen.build().length == pytest.approx(0.094)
+
+
+def test_one_radius_for_points_from_a_file(tmp_path: Path) -> None:
+    (tmp_path / "line.csv").write_text("x,y,z\n0,0,0\n5,0,0\n10,0,0\n")
+    text = load("straight").to_toml()
+    head, tail = text.split("[lumen]")
+    rest = tail[tail.index("[field]") :]
+    lumen = '[lumen]\nshape = "points"\nfile = "line.csv"\nunits = "cm"\nradius = "3 mm"\n'
+    scenario = parse(head + lumen + rest, folder=tmp_path)
+    assert scenario.lumen.radius == (3e-3,)
+    assert scenario.lumen.points[1] == (0.05, 0.0, 0.0)
+
+
+def test_path_may_be_given_as_path_or_text(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(load("helix").to_toml())
+    assert load(path) == load(str(path)) == load("helix")
+
+
+def test_schema_describes_the_library() -> None:
+    schema = json.loads(json.dumps(json_schema()))
+    assert schema["type"] == "object"
+    assert set(schema["required"]) == {"wire", "lumen", "feed"}
+    wire = schema["$defs"]["UniformWire"]["properties"]
+    assert wire["radius"]["type"] == "string"
+    assert wire["radius"]["examples"] == ["5 mm"]
+    assert wire["inner_radius"]["default"] == "0 mm"
+    assert wire["nodes"]["minimum"] == 4
+
+
+def test_scenario_does_not_change() -> None:
+    scenario = load("helix")
+    with pytest.raises(ValueError, match="frozen"):
+        scenario.title = "other"
+
+
+def test_faulty_override_of_a_file_is_refused() -> None:
+    with pytest.raises(ScenarioError, match="not a key of the scenario"):
+        load("helix", ["colour=red"])
