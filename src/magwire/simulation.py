@@ -19,6 +19,8 @@ from magwire.engine.system import Release, System
 from magwire.errors import InputError, array, positive
 from magwire.field import FieldSource, UniformField
 from magwire.lumen import Lumen
+from magwire.navigate import NavigationError, Navigator
+from magwire.navigate.steering import steered_records
 from magwire.wire import Wire
 
 if TYPE_CHECKING:
@@ -85,9 +87,11 @@ class Simulation:
     def run(
         self,
         feed: Feed,
+        navigator: Navigator | None = None,
         *,
         time_step: float = 0.01,
         record_every: float = 1e-4,
+        update_every: float = 5e-4,
         out: str | Path | None = None,
         title: str = "",
         scenario: str = "",
@@ -99,10 +103,14 @@ class Simulation:
         ----------
         feed
             The course of the guide.
+        navigator
+            Who steers, with a uniform field on top of the simulation's own; nobody if left out.
         time_step
             dt [s].
         record_every
             Feed between two records [m], at the course's fastest speed.
+        update_every
+            Feed between two observations of the navigator [m], at the course's fastest speed.
         out
             NetCDF file to write as the run goes; none if left out.
         title, scenario
@@ -113,24 +121,31 @@ class Simulation:
         Returns
         -------
         Result
-            Its ``status`` is "complete", or "not converged" with a ``message`` that names the
-            remedy; it then ends at the last state that did converge.
+            Its ``status`` is "complete"; or "not converged" with a ``message`` that names the
+            remedy, and it then ends at the last state that did converge; or "no field" with a
+            ``message`` that says where the navigator found none, and why.
         """
         from magwire.results import Writer
 
-        positive("Simulation", "record_every", record_every, "m")
         march = March(self.system, self.field, feed, time_step=time_step)
-        interval = record_every / feed.fastest if feed.fastest > 0.0 else feed.duration
-        every = max(1, round(interval / time_step))
+        every = _steps("record_every", record_every, feed, time_step)
+        update = _steps("update_every", update_every, feed, time_step)
+        if navigator is None:
+            records = march.records(every)
+        else:
+            records = steered_records(march, navigator, every=every, update=update)
         info = self.info(title=title, scenario=scenario)
         with Writer(info, out) as writer, held_back_interrupt() as strike:
-            for record in march.records(every):
-                writer.append(record)
-                if watch is not None:
-                    watch(record)
-                strike()
-            converged = march.step == march.steps
-            writer.close("complete" if converged else "not converged", march.message)
+            try:
+                for record in records:
+                    writer.append(record)
+                    if watch is not None:
+                        watch(record)
+                    strike()
+                converged = march.step == march.steps
+                writer.close("complete" if converged else "not converged", march.message)
+            except NavigationError as error:
+                writer.close("no field", str(error))
         return writer.result()
 
     def equilibrium(
@@ -196,3 +211,10 @@ class Simulation:
             title=title,
             scenario=scenario,
         )
+
+
+def _steps(name: str, length: float, feed: Feed, time_step: float) -> int:
+    """How many time steps a length of feed takes, at the course's fastest speed."""
+    positive("Simulation", name, length, "m")
+    interval = length / feed.fastest if feed.fastest > 0.0 else feed.duration
+    return max(1, round(interval / time_step))

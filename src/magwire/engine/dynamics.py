@@ -74,6 +74,8 @@ class March:
             time_step=time_step,
             damping=system.damping,
             inertia=inertia,
+            flux=np.zeros((self.steps + 1, 3)),
+            steer=np.zeros(3),
         )
         self.step = 0
         self.status = Status.CONVERGED
@@ -82,7 +84,7 @@ class March:
         self._velocity = np.zeros_like(self._state.q)
         self._work = system.new_work()
         self._wall = system.new_wall()
-        self._limits = system.limits()
+        self._limits = system.step_limits()
         self._tally = Tally(np.zeros(4), np.array([0.0, 0.0, -1.0]))
         self._field = self._start()
         self._seen = np.zeros(4)
@@ -95,7 +97,40 @@ class March:
         tip = self.system.wire.nodes
         place_held(rod, guide, self._state, 0, tip, self._plan.feed[0], self._plan.twist[0])
         self._held = tip
-        return sample(self.system, self.source, self._state)
+        return self._sample()
+
+    def _sample(self) -> Field:
+        """The outside field where the wire is, with what steering adds to it."""
+        field = sample(self.system, self.source, self._state)
+        field.flux_density[:] += self._plan.steer
+        return field
+
+    @property
+    def feed(self) -> float:
+        """Length of wire past the entrance [m]."""
+        return self._fed(self.step)
+
+    def tip(self) -> tuple[Array, Array]:
+        """Position [m] and unit direction of the tip, shape (3,)."""
+        edge = self._state.q[-1, :3] - self._state.q[-2, :3]
+        position: Array = self._state.q[-1, :3] * self.system.wire.length
+        return position, edge / np.linalg.norm(edge)
+
+    def feeds(self, last: int) -> Array:
+        """Feed at the ends of the steps from now on up to ``last``, shape (last - step,) [m]."""
+        return self._plan.feed[self.step + 1 : last + 1] * self.system.wire.length
+
+    def steer(self, flux_density: Array) -> None:
+        """Set the uniform field that steering adds at the end of each of the next steps.
+
+        Parameters
+        ----------
+        flux_density
+            Shape (k, 3) [T]; after these steps the last value stays.
+        """
+        first = self.step + 1
+        self._plan.flux[first : first + len(flux_density)] = flux_density
+        self._plan.flux[first + len(flux_density) :] = flux_density[-1]
 
     def advance(self, steps: int) -> bool:
         """Do at most this many more time steps; whether all of them converged."""
@@ -139,7 +174,7 @@ class March:
             done, status = self._some(self.step + 1)
             if status != CONVERGED:
                 return done, status
-            field = sample(self.system, self.source, self._state)
+            field = self._sample()
             if mismatch(self.system, self._field, field, self._held) <= self._limits.tolerance:
                 return done, status
             self._field = field
@@ -200,7 +235,7 @@ class March:
             time=self.step * self.time_step,
             feed=feed * scales.length,
             position=state.q[1:, :3] * scales.length,
-            flux_density=self.source.at(tip)[0][0],
+            flux_density=self.source.at(tip)[0][0] + self._plan.steer,
             contact_force=forces[1:] * scales.force,
             clearance=clearance[1:] * scales.length,
             clearance_midpoint=between * scales.length if np.isfinite(between) else float("nan"),

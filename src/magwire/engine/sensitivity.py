@@ -135,12 +135,13 @@ def _band(point: Point, work: Work) -> Array:
 def _coupling(band: Array, lead: Array, point: Point) -> Array:
     """Load of the guide's displacements on the free unknowns, shape [nodes + 1, 4]."""
     nodes, held = len(point.state.q), point.mouth.held
-    rows = np.zeros(4 * (nodes - held + 1))
+    count = 4 * (nodes - held + 1)
+    rows = np.zeros(count + WIDTH)  # the columns of a short wire end in zeros past its last row
     for column, value in enumerate(lead):
         rows[column : column + WIDTH] += value * band[column]
     rows[:FIRST] = 0.0
     load = np.zeros((nodes, 4))
-    load[held - 1 :] = rows.reshape(-1, 4)
+    load[held - 1 :] = rows[:count].reshape(-1, 4)
     return load
 
 
@@ -172,7 +173,7 @@ def _both_triangles(lower: Array) -> Array:
     """A symmetric band, columns of its lower triangle as rows, as ``solve_banded`` wants it."""
     count = len(lower)
     whole = np.zeros((2 * WIDTH - 1, count))
-    for k in range(WIDTH):
+    for k in range(min(WIDTH, count)):
         whole[WIDTH - 1 + k, : count - k] = lower[: count - k, k]
         whole[WIDTH - 1 - k, k:] = lower[: count - k, k]
     return whole

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from magwire.engine.sampling import SAMPLINGS, mismatch, sample
 from magwire.engine.sensitivity import Input, Output, Point, derivative
 from magwire.engine.status import Status
-from magwire.engine.system import MANY_ITERATIONS, SHARP_TOLERANCE, System
+from magwire.engine.system import System
 from magwire.errors import ConvergenceError, finite, within
 from magwire.field import FieldSource
 from magwire.kernels.arrays import Motion, Mouth, State
@@ -124,7 +124,7 @@ def find_equilibrium(
         state = follow(system, source, start, part, twist)
     place_held(system.rod, system.guide, state, 0, held, part, twist)
     wall, work = system.new_wall(), system.new_work()
-    limits = system.limits(SHARP_TOLERANCE, MANY_ITERATIONS)
+    limits = system.sharp_limits()
     iterations, residual = 0, 0.0
     samples = sample(system, source, state)
     for _ in range(SAMPLINGS if held < system.wire.nodes else 0):
@@ -198,7 +198,17 @@ def follow(
     for k in range(steps):
         model = (system.rod, samples, wall, system.walls)
         done, held, status = march(
-            model, system.guide, state, velocity, work, system.limits(), plan, k, k + 1, held, tally
+            model,
+            system.guide,
+            state,
+            velocity,
+            work,
+            system.step_limits(),
+            plan,
+            k,
+            k + 1,
+            held,
+            tally,
         )
         if done == 0:
             reached = float(plan.feed[k]) * system.wire.length

@@ -22,9 +22,10 @@ Array = NDArray[np.float64]
 Release = Literal["sliding", "node"]
 
 TOLERANCE = 1e-6  # force residual of a time step, in EI/L^2
+LAST_STEP = 1e-7  # a Newton step of a time step that needs no further one, in wire lengths
 SHARP_TOLERANCE = 1e-9  # force residual of an equilibrium, in EI/L^2
 ITERATIONS = 60  # of a time step
-MANY_ITERATIONS = 400  # of an equilibrium, which may be far from its start
+MANY_ITERATIONS = 2000  # of an equilibrium, which may be far from its start
 FIRST_SHIFT = 10.0  # first regularisation, in EI/(rho A L^4)
 
 
@@ -119,8 +120,16 @@ class System:
         """The lumen for the gap kernels, in units of the wire's length."""
         return self.lumen.arrays(self.wire.length)
 
-    def limits(self, tolerance: float = TOLERANCE, iterations: int = ITERATIONS) -> Limits:
-        """When Newton's method stops; never below what round-off allows on this mesh.
+    def step_limits(self) -> Limits:
+        """When Newton's method stops in a time step."""
+        return self._limits(TOLERANCE, ITERATIONS)._replace(step=LAST_STEP)
+
+    def sharp_limits(self) -> Limits:
+        """When Newton's method stops at an equilibrium."""
+        return self._limits(SHARP_TOLERANCE, MANY_ITERATIONS)
+
+    def _limits(self, tolerance: float, iterations: int) -> Limits:
+        """Limits, with a tolerance that is not below what round-off allows on this mesh.
 
         Round-off grows with the coordinates: a lumen may lie far from the origin.
         """
@@ -166,6 +175,8 @@ class System:
             trial=self.new_state(),
             spare=self.new_state(),
             ahead=self.new_state(),
+            before=self.new_state(),
+            pace=np.zeros((nodes, 4)),
             target=np.zeros((nodes, 4)),
         )
 

@@ -100,7 +100,10 @@ class Motion(NamedTuple):
 
 
 class Work(NamedTuple):
-    """Scratch arrays of the solver, allocated once; ``no_band`` has no rows."""
+    """Scratch arrays of the solver, allocated once; ``no_band`` has no rows.
+
+    before, pace [N+1, 4]: state and velocities at the start of a step that is cut.
+    """
 
     gradient: Array
     band: Array
@@ -109,4 +112,6 @@ class Work(NamedTuple):
     trial: State
     spare: State
     ahead: State
+    before: State
+    pace: Array
     target: Array

@@ -5,6 +5,8 @@ from __future__ import annotations
 from math import sqrt
 from typing import NamedTuple
 
+import numpy as np
+
 from magwire.kernels._jit import kernel, part
 from magwire.kernels.arrays import Array, Motion, Mouth
 from magwire.kernels.assembly import press, update_frames
@@ -19,7 +21,9 @@ RETRIES = 6  # a step may be cut in half this many times
 class Plan(NamedTuple):
     """Feed and twist of the guide at every step's end, shape [steps + 1] each; time step [s].
 
-    Without inertia the steps are equilibria one after the other (P-16).
+    Without inertia the steps are equilibria one after the other (P-16). flux [steps + 1, 3]: uniform
+    flux density [T] on top of the field's samples at every step's end, none if it has no rows;
+    steer [3]: how much of it the samples hold at the moment.
     """
 
     feed: Array
@@ -27,6 +31,8 @@ class Plan(NamedTuple):
     time_step: float
     damping: float
     inertia: bool
+    flux: Array = np.zeros((0, 3))
+    steer: Array = np.zeros(3)
 
 
 class Tally(NamedTuple):
@@ -112,13 +118,36 @@ def accept(state, velocity, work, held, dt):
 
 
 @kernel
+def copy_rows(source, target):
+    """Copy an array of rows of four."""
+    for i in range(source.shape[0]):
+        for c in range(4):
+            target[i, c] = source[i, c]
+
+
+@kernel
+def steer_field(field, plan, k, share):
+    """Bring the field's samples to what the plan wants at a part of step k."""
+    for c in range(3):
+        wanted = (1.0 - share) * plan.flux[k, c] + share * plan.flux[k + 1, c]
+        change = wanted - plan.steer[c]
+        if change != 0.0:
+            for j in range(field.flux_density.shape[0]):
+                field.flux_density[j, c] += change
+            plan.steer[c] = wanted
+
+
+@kernel
 def march(model, guide, state, velocity, work, limits, plan, first, last, held, tally):
     """Time steps first ... last - 1; a step that fails is cut in half a bounded number of times.
+
+    If that does not help, the state is left as it was before the step.
 
     Returns the steps done, the last held node and how the last step ended: plain numbers, since an
     interrupt that arrives here would break the making of any other object.
     """
     for k in range(first, last):
+        entry = held
         halvings = 0
         done = 0.0
         touching = 0
@@ -126,6 +155,8 @@ def march(model, guide, state, velocity, work, limits, plan, first, last, held, 
             share = 0.5**halvings
             start, end = moment(plan, k, done), moment(plan, k, done + share)
             dt = share * plan.time_step
+            if len(plan.flux) > 0:
+                steer_field(model[1], plan, k, done + share)
             outcome, held = time_step(
                 model, guide, state, velocity, work, limits, held, start, end, dt, plan
             )
@@ -133,8 +164,15 @@ def march(model, guide, state, velocity, work, limits, plan, first, last, held, 
             tally.counts[1] += iterations
             tally.counts[2] += factorisations
             if status != CONVERGED:
+                if done == 0.0:
+                    copy_state(state, work.before, 1)
+                    copy_rows(velocity, work.pace)
                 if halvings == RETRIES:
-                    return k - first, held, status
+                    copy_state(work.before, state, 1)
+                    copy_rows(work.pace, velocity)
+                    if len(plan.flux) > 0:
+                        steer_field(model[1], plan, k, 0.0)
+                    return k - first, entry, status
                 halvings += 1
                 tally.counts[3] += 1
                 continue

@@ -23,11 +23,16 @@ SHIFTS = 24
 
 
 class Limits(NamedTuple):
-    """When Newton stops: force residual (in EI/L^2), iterations; first regularisation [1/s^2]."""
+    """When Newton stops, and where regularisation begins.
+
+    tolerance: force residual, in EI/L^2; iterations; shift: first regularisation [1/s^2]; step: a
+    full step shorter than this, in L, is the last one, since the next would be its square.
+    """
 
     tolerance: float
     iterations: int
     shift: float
+    step: float = 0.0
 
 
 @kernel
@@ -116,6 +121,15 @@ def copy_state(source, target, held):
 
 
 @kernel
+def longest(step, held, nodes):
+    """Largest component of a step."""
+    value = 0.0
+    for r in range(FIRST, 4 * (nodes - held + 1) - 1):
+        value = max(value, abs(step[r]))
+    return value
+
+
+@kernel
 def newton(model, state, mouth, motion, work, limits):
     """Minimise the energy from ``state``, which ends as the last iterate, converged or not.
 
@@ -167,5 +181,7 @@ def newton(model, state, mouth, motion, work, limits):
             a, b = b, a
             energy = lower
             size = residual(work.gradient, held)
+            if share == 1.0 and size < inf and longest(work.step, held, a.q.shape[0]) < limits.step:
+                break
     copy_state(a, state, held)
     return status, iteration, factorisations, size, touching

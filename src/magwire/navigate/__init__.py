@@ -1,1 +1,6 @@
 """What field comes next."""
+
+from magwire.navigate.navigator import NavigationError, Navigator, Observation, Prescribed
+from magwire.navigate.schedule import Schedule
+
+__all__ = ["NavigationError", "Navigator", "Observation", "Prescribed", "Schedule"]

@@ -1,0 +1,54 @@
+"""Run by ``starts.py`` in a process of its own: prints when it got where, in seconds since 1970."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+
+stamps = {"python": time.time()}
+
+
+def mark(name: str) -> None:
+    stamps[name] = time.time()
+
+
+def bare() -> None:
+    import magwire  # noqa: F401
+
+    mark("magwire")
+
+
+def names() -> None:
+    import magwire
+
+    mark("magwire")
+    for name in magwire.__all__:
+        getattr(magwire, name)
+    mark("names")
+
+
+def step(out: str) -> None:
+    """What ``magwire run half-circle`` does up to the end of its first time step."""
+    from pathlib import Path
+
+    from magwire.cli import progress
+    from magwire.scenario import load
+
+    described = load("half-circle", ("feed.distance=0.1 mm", "output.record_every=0.01 mm"))
+    mark("scenario")
+    job = described.build()
+    mark("models")
+    with progress(job.feed.duration) as show:
+
+        def watch(record: object) -> None:
+            if record.totals.steps > 0 and "step" not in stamps:
+                mark("step")
+            show(record)
+
+        job.run(Path(out) / "result.nc", watch=watch)
+
+
+if __name__ == "__main__":
+    globals()[sys.argv[1]](*sys.argv[2:])
+    sys.stdout.write(json.dumps(stamps) + "\n")

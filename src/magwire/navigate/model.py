@@ -1,0 +1,188 @@
+"""The navigator's own model of the wire: equilibria one after the other (P-16, P-21)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magwire.engine.status import Status
+from magwire.engine.system import System
+from magwire.kernels.arrays import Field, Motion, Mouth, State
+from magwire.kernels.gap import gap_value
+from magwire.kernels.guide import find_mouth, place_held
+from magwire.kernels.linearise import Linear, linearise
+from magwire.kernels.march import Plan, Tally, march
+from magwire.kernels.newton import newton
+from magwire.lumen import Lumen
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class View:
+    """A stable equilibrium to first order in the uniform flux density.
+
+    Attributes
+    ----------
+    offset
+        From the centreline to the tip, across it, in two axes, shape (2,) [m].
+    offset_by_flux
+        Shape (2, 3) [m/T].
+    radius
+        Of the lumen where the tip is [m].
+    eigenvalue
+        Smallest eigenvalue of the tangent stiffness against the lumped mass [rad^2/s^2].
+    eigenvalue_by_flux
+        Shape (3,) [rad^2/s^2 per T].
+    """
+
+    offset: Array
+    offset_by_flux: Array
+    radius: float
+    eigenvalue: float
+    eigenvalue_by_flux: Array
+
+
+@dataclass(frozen=True)
+class Memory:
+    """What a model needs to go back to where it was."""
+
+    state: State
+    held: int
+    feed: float
+    flux: Array
+
+
+class Model:
+    """A wire at equilibrium in a uniform field, fed and steered quasi-statically.
+
+    Parameters
+    ----------
+    system
+        Wire, lumen and wall as the navigator believes them to be.
+    path
+        Tube around the centreline that the tip is to follow.
+
+    Attributes
+    ----------
+    feed
+        Length of wire inside the lumen [m].
+    flux
+        Uniform flux density, shape (3,) [T].
+    solves
+        Equilibria solved so far.
+    """
+
+    def __init__(self, system: System, path: Lumen) -> None:
+        self.system = system
+        self.path = path
+        self.feed = 0.0
+        self.flux: Array = np.zeros(3)
+        self.solves = 0
+        self._state, self._work = system.new_state(), system.new_work()
+        self._wall, self._limits = system.new_wall(), system.step_limits()
+        self._velocity = np.zeros_like(self._state.q)
+        self._held = system.wire.nodes
+        self._tube = path.arrays(system.wire.length)
+        edges, rows = len(self._state.length), len(self._work.step)
+        self._field = Field(np.zeros((edges, 3)), np.zeros((edges, 9)), np.zeros((edges, 3)), True)
+        self._linear = Linear(np.zeros((3, rows)), np.ones(rows), np.zeros(3), np.zeros((edges, 3)))
+        place_held(system.rod, system.guide, self._state, 0, self._held, 0.0, 0.0)
+
+    @property
+    def released(self) -> bool:
+        """Whether any of the wire is free."""
+        return self._held < self.system.wire.nodes
+
+    def feed_to(self, feed: float) -> bool:
+        """Feed the wire on (or back) in the field as it is; whether an equilibrium was found."""
+        length = self.system.wire.length
+        edge = float(self.system.mesh.edge_length.min())
+        steps = max(1, int(np.ceil(abs(feed - self.feed) / (0.5 * edge) - 1e-9)))
+        course = np.linspace(self.feed, feed, steps + 1) / length
+        plan = Plan(course, np.zeros(steps + 1), 1.0, 0.0, False)
+        done, self._held, status = march(
+            self._model(),
+            self.system.guide,
+            self._state,
+            self._velocity,
+            self._work,
+            self._limits,
+            plan,
+            0,
+            steps,
+            self._held,
+            Tally(np.zeros(4), np.zeros(3)),
+        )
+        self.solves += steps
+        self.feed = float(course[done]) * length
+        return bool(status == Status.CONVERGED)
+
+    def settle(self, flux: Array) -> bool:
+        """Find the equilibrium in another field; if there is none, stay as before."""
+        before = self.remember()
+        self.flux = np.asarray(flux, dtype=np.float64)
+        still = Motion(0.0, self._work.target)
+        mouth = self._mouth()
+        status = newton(self._model(), self._state, mouth, still, self._work, self._limits)[0]
+        self.solves += 1
+        if status != Status.CONVERGED:
+            self.return_to(before)
+            return False
+        return True
+
+    def look(self) -> View | None:
+        """The equilibrium to first order; None if it is unstable."""
+        mouth = self._mouth()
+        value = linearise(self._model(), self._state, mouth, self._work, self._linear)
+        if not value > 0.0:
+            return None
+        length = self.system.wire.length
+        tip = self._state.q[-1, :3]
+        _, arc, branch, _ = gap_value(self._tube, *tip)
+        curve = self.path.branches[branch].curve
+        where = np.array([arc * length])
+        centre, along = curve.at(where)[0], curve.at(where, 1)[0, :3]
+        axes = across(along)
+        last = 4 * (len(self._state.q) - self._held)
+        moves = self._linear.moves[:, last : last + 3].T * length
+        return View(
+            offset=axes @ (tip * length - centre[:3]),
+            offset_by_flux=axes @ moves,
+            radius=float(centre[3]),
+            eigenvalue=float(value),
+            eigenvalue_by_flux=self._linear.slope.copy(),
+        )
+
+    def remember(self) -> Memory:
+        """What it takes to come back here."""
+        state = self.system.new_state()
+        for kept, value in zip(state, self._state, strict=True):
+            kept[:] = value
+        return Memory(state, self._held, self.feed, self.flux)
+
+    def return_to(self, memory: Memory) -> None:
+        """Come back to what was remembered."""
+        for value, kept in zip(self._state, memory.state, strict=True):
+            value[:] = kept
+        self._held, self.feed, self.flux = memory.held, memory.feed, memory.flux
+
+    def _mouth(self) -> Mouth:
+        part = self.feed / self.system.wire.length
+        return Mouth(*find_mouth(self.system.rod, self.system.guide, part))
+
+    def _model(self) -> tuple[object, ...]:
+        self._field.flux_density[:] = self.flux
+        return (self.system.rod, self._field, self._wall, self.system.walls)
+
+
+def across(direction: Array) -> Array:
+    """Two unit vectors across a direction, shape (2, 3)."""
+    along = direction / np.linalg.norm(direction)
+    axis = np.zeros(3)
+    axis[np.argmin(np.abs(along))] = 1.0
+    first = np.cross(along, axis)
+    first /= np.linalg.norm(first)
+    return np.stack([first, np.cross(along, first)])

@@ -1,0 +1,60 @@
+"""What steers: sees the wire now and then, and says which field comes next."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magwire.errors import MagwireError
+from magwire.navigate.schedule import Schedule
+
+Array = NDArray[np.float64]
+
+
+class NavigationError(MagwireError):
+    """There is no field that does what is asked for; the message says where and why."""
+
+
+@dataclass(frozen=True)
+class Observation:
+    """What a navigator is told of the wire.
+
+    Attributes
+    ----------
+    feed
+        Length of wire inside the lumen [m].
+    tip, tip_direction
+        Measured position [m] and unit direction of the tip, shape (3,).
+    """
+
+    feed: float
+    tip: Array
+    tip_direction: Array
+
+
+class Navigator(Protocol):
+    """A way to steer. To add one, write a class with this method."""
+
+    def plan(self, observation: Observation, until: float) -> Schedule:
+        """The field from the observed feed to the feed ``until`` [m] of the next observation.
+
+        Raises
+        ------
+        NavigationError
+            If no field does what is asked for.
+        """
+        ...
+
+
+@dataclass(frozen=True)
+class Prescribed:
+    """Steering by a schedule that is known beforehand, whatever the wire does (P-23)."""
+
+    schedule: Schedule
+
+    def plan(self, observation: Observation, until: float) -> Schedule:
+        """The schedule itself."""
+        return self.schedule

@@ -1,0 +1,62 @@
+"""A field schedule: the uniform flux density as a function of the feed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from magwire.errors import InputError, array, positive
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """A uniform flux density that is linear in the feed between knots (P-23).
+
+    Parameters
+    ----------
+    feed
+        Knots, rising, shape (k,) [m]; before the first and after the last the field stays.
+    flux_density
+        At the knots, shape (k, 3) [T].
+
+    Raises
+    ------
+    InputError
+        If the shapes do not fit or the knots do not rise.
+    """
+
+    feed: Array
+    flux_density: Array
+
+    def __post_init__(self) -> None:
+        feed = array("Schedule", "feed", self.feed, (None,), "m")
+        flux = array("Schedule", "flux_density", self.flux_density, (len(feed), 3), "T")
+        if len(feed) == 0 or np.any(np.diff(feed) <= 0.0):
+            raise InputError(
+                "Input feed of Schedule must hold at least one value and rise; received "
+                f"{len(feed)} values, the smallest rise "
+                f"{np.diff(feed).min(initial=np.inf):.6g} m."
+            )
+        object.__setattr__(self, "feed", feed)
+        object.__setattr__(self, "flux_density", flux)
+
+    def at(self, feed: ArrayLike) -> Array:
+        """Flux density at feeds, shape (n, 3) [T]."""
+        where = np.atleast_1d(np.asarray(feed, dtype=np.float64))
+        columns = [np.interp(where, self.feed, self.flux_density[:, c]) for c in range(3)]
+        return np.stack(columns, axis=1)
+
+    def resampled(self, step: float) -> Schedule:
+        """The schedule with knots every ``step`` [m] of feed, and at its end."""
+        positive("Schedule.resampled", "step", step, "m")
+        first, last = float(self.feed[0]), float(self.feed[-1])
+        knots = np.append(np.arange(first, last - 1e-9 * step, step), last)
+        return Schedule(knots, self.at(knots))
+
+    def scaled(self, factor: float) -> Schedule:
+        """The schedule with all field values multiplied by a factor."""
+        return Schedule(self.feed, factor * self.flux_density)

@@ -1,0 +1,37 @@
+"""The reference data of tests/data, read once."""
+
+from __future__ import annotations
+
+import csv
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+DATA = Path(__file__).parent / "data"
+Array = NDArray[np.float64]
+
+
+@lru_cache
+def closed_form(name: str) -> tuple[tuple[float, ...], ...]:
+    """Rows of a table of numbers in closed_form/, without its header."""
+    with (DATA / "closed_form" / f"{name}.csv").open(encoding="utf-8") as file:
+        return tuple(tuple(map(float, row)) for row in list(csv.reader(file))[1:])
+
+
+@lru_cache
+def critical_load(case: str) -> float:
+    """A number of critical_loads.csv, by the first word of its case."""
+    with (DATA / "closed_form" / "critical_loads.csv").open(encoding="utf-8") as file:
+        rows = [row for row in csv.reader(file) if row[0].startswith(case)]
+    assert len(rows) == 1, case
+    return float(rows[0][1])
+
+
+@lru_cache
+def figure(name: str, series: str) -> Array:
+    """The numbers of one series of a file in paper_figures/, shape (n, columns)."""
+    with (DATA / "paper_figures" / f"{name}.csv").open(encoding="utf-8") as file:
+        rows = [row[1:] for row in csv.reader(file) if row[0] == series]
+    return np.array(rows, dtype=np.float64)
