@@ -17,7 +17,7 @@ from magwire.errors import InputError, positive
 from magwire.field import FieldSource
 from magwire.kernels.arrays import Field, Mouth
 from magwire.kernels.guide import find_mouth, place_held
-from magwire.kernels.march import Plan, Tally, march
+from magwire.kernels.march import RETRIES, Plan, Tally, march
 from magwire.kernels.newton import CONVERGED, copy_state
 from magwire.kernels.observe import observe
 
@@ -142,7 +142,7 @@ class March:
                 self.status = Status(status)
                 self.message = (
                     f"The step to {self._fed(self.step + 1) * 1e3:.4g} mm of feed did not "
-                    f"converge, even when cut into {2**6} parts: {self.status.remedy}."
+                    f"converge, even when cut into {2**RETRIES} parts: {self.status.remedy}."
                 )
                 return False
         return True

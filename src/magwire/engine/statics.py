@@ -99,7 +99,8 @@ class Equilibrium:
 
         Notes
         -----
-        (P-21): K dq/du = -d(grad E)/du with the tangent stiffness K.
+        (P-21): K dq/du = -d(grad E)/du with the tangent stiffness K. Exact in a field that is
+        linear in space; in any other, K leaves out the second derivatives of the field.
         """
         return derivative(self.point, output, wrt)
 
@@ -139,7 +140,11 @@ def find_equilibrium(
             break
     else:
         if held < system.wire.nodes:
-            raise _failure(system, feed, "the field varies too strongly along the wire", state)
+            reason = (
+                "the field varies too strongly along the wire; try a start in a field that is "
+                "nearly the same"
+            )
+            raise _failure(system, feed, reason, state)
     nodes = len(state.q)
     forces, clearance = np.zeros((nodes, 3)), np.full(nodes, np.nan)
     model = (system.rod, samples, wall, system.walls)

@@ -24,12 +24,12 @@ class Status(IntEnum):
 _REMEDIES = {
     Status.CONVERGED: "Newton's method converged",
     Status.STALLED: (
-        "the line search found no lower energy; try a smaller time step, or a larger activation "
-        "gap or stiffness of the contact if a wall force is large"
+        "the line search found no lower energy; try a smaller time step or a nearer start, or, if "
+        "a wall force is large, a stiffer contact or a larger activation gap"
     ),
     Status.TOO_MANY_ITERATIONS: (
-        "Newton's method did not reach the tolerance; try a smaller time step or a smaller change "
-        "of field per step"
+        "Newton's method did not reach the tolerance; try a smaller time step or a nearer start, "
+        "or, if a wall force is large, a stiffer contact or a larger activation gap"
     ),
     Status.PENETRATING: (
         "the wire starts inside the wall; check that the lumen's entrance is wider than the wire "

@@ -21,9 +21,9 @@ RETRIES = 6  # a step may be cut in half this many times
 class Plan(NamedTuple):
     """Feed and twist of the guide at every step's end, shape [steps + 1] each; time step [s].
 
-    Without inertia the steps are equilibria one after the other (P-16). flux [steps + 1, 3]: uniform
-    flux density [T] on top of the field's samples at every step's end, none if it has no rows;
-    steer [3]: how much of it the samples hold at the moment.
+    Without inertia the steps are equilibria one after the other (P-16). flux [steps + 1, 3]: flux
+    density [T] on top of the field's samples at every step's end, none if it has no rows; steer
+    [3]: how much of it the samples hold at the moment.
     """
 
     feed: Array
@@ -137,18 +137,32 @@ def steer_field(field, plan, k, share):
             plan.steer[c] = wanted
 
 
+@part
+def cuts_by_feed(rod, plan, k):
+    """How often step k is cut in half beforehand, so that no part feeds more than an edge."""
+    fed = abs(plan.feed[k + 1] - plan.feed[k])
+    edge = rod.rest[rod.rest.shape[0] - 1]
+    cuts = 0
+    while fed > edge:
+        fed *= 0.5
+        cuts += 1
+    return cuts
+
+
 @kernel
 def march(model, guide, state, velocity, work, limits, plan, first, last, held, tally):
-    """Time steps first ... last - 1; a step that fails is cut in half a bounded number of times.
+    """Time steps first ... last - 1.
 
-    If that does not help, the state is left as it was before the step.
+    A step that would feed more than an edge is done in parts. One that fails is cut in half a
+    bounded number of times; if that does not help, the state is left as it was before the step.
 
     Returns the steps done, the last held node and how the last step ended: plain numbers, since an
     interrupt that arrives here would break the making of any other object.
     """
     for k in range(first, last):
         entry = held
-        halvings = 0
+        begun = cuts_by_feed(model[0], plan, k)
+        halvings = begun
         done = 0.0
         touching = 0
         while done < 1.0:
@@ -167,7 +181,7 @@ def march(model, guide, state, velocity, work, limits, plan, first, last, held, 
                 if done == 0.0:
                     copy_state(state, work.before, 1)
                     copy_rows(velocity, work.pace)
-                if halvings == RETRIES:
+                if halvings == begun + RETRIES:
                     copy_state(work.before, state, 1)
                     copy_rows(work.pace, velocity)
                     if len(plan.flux) > 0:
