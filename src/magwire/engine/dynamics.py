@@ -90,6 +90,9 @@ class March:
         self._seen = np.zeros(4)
         self._clearance = float("inf")
         self._began = time.perf_counter()
+        self._some(0)  # no steps: compiled code is made or read before the clock starts
+        self.record()
+        self._began = time.perf_counter()
 
     def _start(self) -> Field:
         """Put the wire on the guide at the first feed and sample the field there."""
