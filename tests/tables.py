@@ -35,3 +35,12 @@ def figure(name: str, series: str) -> Array:
     with (DATA / "paper_figures" / f"{name}.csv").open(encoding="utf-8") as file:
         rows = [row[1:] for row in csv.reader(file) if row[0] == series]
     return np.array(rows, dtype=np.float64)
+
+
+@lru_cache
+def control_field() -> tuple[tuple[str, float, float], ...]:
+    """Series, push and value of the authors' field in their earlier half-circle."""
+    path = DATA / "paper_figures" / "control_halfcircle_field.csv"
+    with path.open(encoding="utf-8") as file:
+        rows = csv.DictReader(file)
+        return tuple((r["series"], float(r["X_push"]), float(r["value"])) for r in rows)

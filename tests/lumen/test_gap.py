@@ -81,7 +81,8 @@ def test_gap_does_not_see_rigid_motions(seed: int) -> None:
     moved = Lumen((Branch(branch.points @ turn.T + shift, branch.radius),))
     points = around(MADE["random"], 20, 0.0, 1.9, seed)
     here, there = MADE["random"].gap(points), moved.gap(points @ turn.T + shift)
-    np.testing.assert_allclose(there, here, rtol=0, atol=1e-12)
+    exact = here > -0.9 * moved.narrowest  # farther outside it is a bound
+    np.testing.assert_allclose(there[exact], here[exact], rtol=0, atol=1e-12)
 
 
 def test_gap_does_not_see_the_direction_of_the_branch(lumens: dict[str, Lumen]) -> None:

@@ -243,7 +243,7 @@ class March:
             clearance=clearance[1:] * scales.length,
             clearance_midpoint=between * scales.length if np.isfinite(between) else float("nan"),
             tip_force=float(np.linalg.norm(forces[-1])) * scales.force,
-            tip_offset=float(system.lumen.offset(tip)[0]),
+            tip_offset=float(system.path.offset(tip)[0]),
             newton_iterations=float(iterations),
             stable=bool(stable),
             totals=self.totals,

@@ -163,14 +163,14 @@ def find_equilibrium(
 
 
 def lay_on_centreline(system: System, held: int, feed: float, twist: float) -> State:
-    """The wire laid along the centreline of the first branch, untwisted; feed in wire lengths."""
+    """The wire laid along the path to the target, untwisted; feed in wire lengths."""
     state = system.new_state()
     tip = len(state.q) - 1
     place_held(system.rod, system.guide, state, 0, tip, feed, twist)
     past = system.rod.station - (system.rod.station[-1] - feed)
     free = np.arange(held + 1, tip + 1)
     if len(free) > 0 and system.lumen.branches:
-        curve = system.lumen.branches[0].curve
+        curve = system.path.branches[0].curve
         state.q[free, :3] = curve.at(past[free] * system.wire.length)[:, :3] / system.wire.length
     for i in range(held, tip):  # frames carried along the wire: no edge is twisted
         edge = state.q[i + 1, :3] - state.q[i, :3]

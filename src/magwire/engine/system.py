@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from magwire.contact import Barrier
 from magwire.engine.record import Scales
 from magwire.errors import array, nonnegative, one_of
-from magwire.kernels.arrays import Guide, Rod, State, Wall, Work
+from magwire.kernels.arrays import Guide, Rod, State, Tube, Wall, Work
 from magwire.kernels.band import HALF_BANDWIDTH, WIDTH
+from magwire.kernels.gap import LumenArrays
 from magwire.kernels.newton import Limits
 from magwire.lumen import Lumen
 from magwire.wire import Mesh, Wire, lay_out
@@ -116,7 +117,12 @@ class System:
         )
 
     @cached_property
-    def walls(self) -> object:
+    def path(self) -> Lumen:
+        """The way from the entrance to the lumen's target, as a single tube."""
+        return self.lumen.path()
+
+    @cached_property
+    def walls(self) -> LumenArrays:
         """The lumen for the gap kernels, in units of the wire's length."""
         return self.lumen.arrays(self.wire.length)
 
@@ -142,14 +148,32 @@ class System:
         floor = 4.0 * float(np.finfo(np.float64).eps) * far * stiffest
         return Limits(max(tolerance, floor), iterations, FIRST_SHIFT / inertia)
 
-    def new_wall(self) -> Wall:
-        """The barrier, with nothing known yet of the gap near any point."""
+    def new_wall(self, tube: Tube | None = None) -> Wall:
+        """The barrier, with nothing known yet of the gap near any point; with a virtual tube."""
         length, stiffness = self.wire.length, self.wire.bending_stiffness
+        none = Tube(0.0, 0.0, 0.0, self.walls, np.full((1, 4), -np.inf), np.zeros((1, 10)))
         return Wall(
             stiffness=self.contact.stiffness * length**4 / stiffness,
             gap=self.contact.activation_gap / length,
             known=np.full((self.wire.nodes + 1, 4), -np.inf),
             jet=np.zeros((self.wire.nodes + 1, 10)),
+            tube=none if tube is None else tube,
+        )
+
+    def new_tube(self, path: Lumen, radius: float) -> Tube:
+        """The virtual tube of a radius [m] around the centreline of a path (P-19).
+
+        The path must be as wide everywhere as at its narrowest; its barrier has the contact's
+        stiffness and reaches to the centreline.
+        """
+        length = self.wire.length
+        return Tube(
+            stiffness=self.contact.stiffness * length**4 / self.wire.bending_stiffness,
+            gap=radius / length,
+            offset=(path.narrowest - radius) / length,
+            path=path.arrays(length),
+            known=np.full((1, 4), -np.inf),
+            jet=np.zeros((1, 10)),
         )
 
     def new_state(self) -> State:

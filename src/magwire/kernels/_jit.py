@@ -40,6 +40,11 @@ def _user_cache() -> Path:
     return folder
 
 
+def compiled_before() -> bool:
+    """Whether machine code of these kernels is there from an earlier run."""
+    return any(Path(numba.config.CACHE_DIR).rglob("march.march-*.nbc"))
+
+
 if "NUMBA_CACHE_DIR" not in os.environ:
     numba.config.CACHE_DIR = str(_cache_folder())
 

@@ -11,6 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.kernels.gap import LumenArrays
+
 Array = NDArray[np.float64]
 
 
@@ -58,6 +60,21 @@ class Field(NamedTuple):
     uniform: bool
 
 
+class Tube(NamedTuple):
+    """The virtual tube around the centreline, which only the tip feels (P-19).
+
+    path: a tube around the centreline; offset: its radius less the virtual tube's; known [1, 4],
+    jet [1, 10] as in ``Wall``. A stiffness of zero: there is none.
+    """
+
+    stiffness: float
+    gap: float
+    offset: float
+    path: LumenArrays
+    known: Array
+    jet: Array
+
+
 class Wall(NamedTuple):
     """Barrier stiffness and activation gap, and what is known of the gap near each node.
 
@@ -70,6 +87,7 @@ class Wall(NamedTuple):
     gap: float
     known: Array
     jet: Array
+    tube: Tube
 
 
 class State(NamedTuple):

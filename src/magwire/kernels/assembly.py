@@ -224,39 +224,49 @@ def query(lumen, x, known, jet):
 
 
 @kernel
-def press(rod, lumen, wall, x, i):
-    """Barrier of node i at x: active or not, energy, gradient, Hessian (P-8, P-11).
+def push(lumen, x, stiffness, gap, offset, known, jet):
+    """Barrier of a point: active or not, energy, gradient, Hessian (P-8, P-11).
 
-    ``wall.known`` remembers where the gap was last asked for and how far from there no wall is.
+    ``known`` remembers where the gap was last asked for and how far from there no wall is.
     """
-    known, jet = wall.known[i], wall.jet[i]
-    offset = rod.offset[i]
-    reach = wall.gap + offset
     away = norm(sub(x, (known[0], known[1], known[2])))
-    if away + reach <= known[3]:
+    if away + gap + offset <= known[3]:
         return False, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     if not away == 0.0:
         query(lumen, x, known, jet)
-    g, n = jet[0], (jet[1], jet[2], jet[3])
+    d, n = jet[0] - offset, (jet[1], jet[2], jet[3])
     h = (jet[4], jet[5], jet[6], jet[7], jet[8], jet[9])
-    d = g - offset
-    if d >= wall.gap:
+    if d >= gap:
         return False, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     if not d > 0.0:
         return True, inf, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    k = wall.stiffness * rod.cell[i]
-    value, first, curved = barrier(d, wall.gap)
-    block = sym_add(sym_outer(k * curved, n), sym_scale(k * first, h))
-    return True, k * value, scale(k * first, n), block
+    value, first, curved = barrier(d, gap)
+    block = sym_add(sym_outer(stiffness * curved, n), sym_scale(stiffness * first, h))
+    return True, stiffness * value, scale(stiffness * first, n), block
+
+
+@kernel
+def press(rod, lumen, wall, x, i):
+    """Barrier of the wall on node i at x; see ``push``."""
+    stiffness = wall.stiffness * rod.cell[i]
+    return push(lumen, x, stiffness, wall.gap, rod.offset[i], wall.known[i], wall.jet[i])
+
+
+@kernel
+def press_tube(rod, tube, x):
+    """Barrier of the virtual tube on the tip at x; see ``push`` (P-19)."""
+    stiffness = tube.stiffness * rod.cell[rod.cell.shape[0] - 1]
+    return push(tube.path, x, stiffness, tube.gap, tube.offset, tube.known[0], tube.jet[0])
 
 
 @kernel
 def add_walls(rod, lumen, wall, state, mouth, gradient, band):
-    """Barrier energy of the nodes, and how many of them feel it (P-11, P-13)."""
+    """Barrier energy of the nodes, and how many of them feel the wall (P-11, P-13)."""
     energy = 0.0
     touching = 0
     held = mouth.held
-    for i in range(held + 1, state.q.shape[0]):
+    tip = state.q.shape[0] - 1
+    for i in range(held + 1, tip + 1):
         active, value, pushed, block = press(rod, lumen, wall, row(state.q, i), i)
         if active:
             touching += 1
@@ -264,6 +274,13 @@ def add_walls(rod, lumen, wall, state, mouth, gradient, band):
             add_vector(gradient, i, 1.0, pushed)
             if len(band) > 0:
                 add_diagonal(band, 4 * (i - held + 1), block)
+    if wall.tube.stiffness > 0.0 and held < tip:
+        active, value, pushed, block = press_tube(rod, wall.tube, row(state.q, tip))
+        if active:
+            energy += value
+            add_vector(gradient, tip, 1.0, pushed)
+            if len(band) > 0:
+                add_diagonal(band, 4 * (tip - held + 1), block)
     return energy, touching
 
 

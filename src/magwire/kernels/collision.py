@@ -45,9 +45,15 @@ def allowed_part(rod, lumen, wall, q, step, held):
     """Largest part of a step (rows of the band's layout) that keeps every node inside."""
     part = 1.0
     nodes = q.shape[0]
+    dx = (0.0, 0.0, 0.0)
     lead = 4 * (held - 1)
     for i in range(held + 1, nodes):
         r = 4 * i - lead
         dx = (step[r], step[r + 1], step[r + 2])
         part = travel(lumen, row(q, i), dx, rod.offset[i], wall.known[i], wall.jet[i], part)
+    tube = wall.tube
+    if tube.stiffness > 0.0 and held < nodes - 1:
+        part = travel(
+            tube.path, row(q, nodes - 1), dx, tube.offset, tube.known[0], tube.jet[0], part
+        )
     return part

@@ -347,7 +347,8 @@ def gap_value(lumen, x, y, z):
         Arc parameter and branch of the ball it belongs to, S below 0 or above the branch's length
         past an end; nan and -1 in no voxel of the grid.
     safe
-        Distance by which the point may move without crossing the wall: g inside the lumen. From
+        Distance by which the point may move without crossing the wall: g inside the lumen, also
+        where branches blend; less past an open end, where the flared wall is steeper. From
         free space outside it the point may come to lie in the solid, but not through it.
     """
     index, offset, safe = first_seed(lumen, x, y, z)
@@ -366,10 +367,11 @@ def gap_value(lumen, x, y, z):
             new_g, new_s, new_safe = one_g, one_s, one_safe
         index += 1
         if last or seed_at(lumen, index, offset)[1] != here:
+            tubes = new_safe == new_g and safe == g
             g, weight, _ = blend(new_g, g, lumen.blend)
             if weight >= 0.5:
                 s, branch = new_s, here
-            safe = max(safe, new_safe)
+            safe = g if tubes else max(safe, new_safe)
             new_g, new_s, new_safe = -inf, nan, -inf
     if free_branch >= 0 and g <= -lumen.margin:
         return inf, free_s, free_branch, min(free_safe, lumen.margin)
@@ -482,13 +484,14 @@ def gap_jet(lumen, x, y, z):
             new_g, new_s, new_side, new_safe, new_frame = one_g, one_s, side, one_safe, frame
         index += 1
         if last or seed_at(lumen, index, offset)[1] != here:
+            tubes = new_safe == new_g and safe == g
             g, weight, curvature = blend(new_g, g, lumen.blend)
             if weight > 0.0 and new_g > -inf:
                 new_n, new_h = wall_jet(lumen, here, new_g, new_side, new_frame, x, y, z)
                 n, h = blend_jets(weight, curvature, new_n, new_h, n, h)
             if weight >= 0.5:
                 s, branch = new_s, here
-            safe = max(safe, new_safe)
+            safe = g if tubes else max(safe, new_safe)
             new_g, new_s, new_side, new_safe = -inf, nan, 0, -inf
     if free_branch >= 0 and g <= -lumen.margin:
         return inf, free_s, free_branch, min(free_safe, lumen.margin), none, flat

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from magwire.kernels._jit import kernel, part
 from magwire.kernels.arrays import Array, Field, Motion
-from magwire.kernels.assembly import FIRST, assemble
+from magwire.kernels.assembly import FIRST, assemble, press_tube
 from magwire.kernels.band import WIDTH, factor, solve
 from magwire.kernels.hinge import material_frame
 from magwire.kernels.magnetics import torque_gradient
@@ -52,6 +52,21 @@ def load_of_field(rod, state, held, axis, rows):
         rows[r + 3] -= by_theta
     for i in range(FIRST):
         rows[i] = 0.0
+
+
+@kernel
+def tube_force(model, state, force, slope):
+    """Force of the virtual tube on the tip (P-19).
+
+    Fills ``force`` [3] and its derivative by the tip's position, ``slope`` [3, 3].
+    """
+    rod, _, wall, _ = model
+    _, _, pushed, h = press_tube(rod, wall.tube, row(state.q, state.q.shape[0] - 1))
+    rows = (h[0], h[1], h[2], h[1], h[3], h[4], h[2], h[4], h[5])
+    for i in range(3):
+        force[i] = -pushed[i]
+        for j in range(3):
+            slope[i, j] = -rows[3 * i + j]
 
 
 @kernel

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,6 +16,7 @@ from magwire.kernels.gap import LumenArrays, gap_many
 from magwire.lumen import shapes
 from magwire.lumen.branch import Bend, Branch
 from magwire.lumen.grid import build, scaled
+from magwire.lumen.tree import BLEND, join
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int32]
@@ -27,9 +29,14 @@ class Lumen:
     Parameters
     ----------
     branches
-        The first one leads from the entrance to the target. None at all is open space.
+        The first one starts at the entrance. None at all is open space.
     blend
         Width over which the walls of two branches are rounded into each other [m].
+    paths
+        Of a tree, the centrelines from the entrance to its outlets by their names. ``Lumen.tree``
+        makes branches and paths.
+    target
+        The outlet to go to; the first one if left out.
 
     Notes
     -----
@@ -40,6 +47,8 @@ class Lumen:
 
     branches: tuple[Branch, ...]
     blend: float = field(default=0.0, kw_only=True)
+    paths: Mapping[str, Branch] = field(default_factory=dict, kw_only=True)
+    target: str | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         branches: object = self.branches
@@ -56,6 +65,11 @@ class Lumen:
                 )
         object.__setattr__(self, "branches", tuple(branches))
         object.__setattr__(self, "blend", nonnegative("Lumen", "blend", self.blend, "m"))
+        object.__setattr__(self, "paths", MappingProxyType(dict(self.paths)))
+        if self.target is None and self.paths:
+            object.__setattr__(self, "target", self.outlets[0])
+        if self.target is not None:
+            self._known("target", self.target)
 
     @classmethod
     def straight(cls, length: float, radius: float) -> Lumen:
@@ -155,6 +169,80 @@ class Lumen:
         return cls((Branch(np.asarray(points), np.asarray(radius)),))
 
     @classmethod
+    def bends(cls, table: ArrayLike, radius: float, points: int = 200) -> Lumen:
+        """Tube from the origin along x, that bends as a table says.
+
+        Parameters
+        ----------
+        table
+            Rows of arc length [m] and two curvatures [1/m], linear between them, shape (rows, 3);
+            the first row is at 0. A positive first curvature turns from x towards y, a positive
+            second one from x towards z; these two directions go along with the tube untwisted.
+        radius
+            Inner radius of the tube [m].
+        points
+            Number of points of the centreline.
+        """
+        owner = "Lumen.bends"
+        rows = array(owner, "table", table, (None, 3))
+        if len(rows) < 2 or rows[0, 0] != 0.0 or np.any(np.diff(rows[:, 0]) <= 0.0):
+            raise InputError(
+                "Input table of Lumen.bends must have two rows at least, with arc lengths that "
+                f"start at 0 m and increase; received {rows[:, 0].tolist()} m."
+            )
+        shape = shapes.bends(rows, whole(owner, "points", points, minimum=5))
+        return cls._formula("bends", shape, radius)
+
+    @classmethod
+    def tree(
+        cls,
+        branches: Mapping[str, Lumen],
+        *,
+        target: str | None = None,
+        blend: float | None = None,
+    ) -> Lumen:
+        """Tree of tubes, each with the name of its outlet.
+
+        Parameters
+        ----------
+        branches
+            Tubes by name. Each one starts at the entrance and shares the first part of its way
+            with those before it, or starts on the centreline of one before it.
+        target
+            Name of the outlet to go to; the first one if left out. It does not change the wall.
+        blend
+            Width over which the branches are rounded into each other [m]; a fifth of the smallest
+            radius if left out.
+
+        Raises
+        ------
+        InputError
+            If a branch is not connected, is wider than what it leaves, never leaves it or comes
+            back to another one, or if there is no such target.
+
+        Examples
+        --------
+        >>> import magwire as mw
+        >>> ahead = mw.Lumen.straight(length=0.08, radius=3e-3)
+        >>> aside = mw.Lumen.through([[0.02, 0, 0], [0.04, 0.02, 0], [0.05, 0.05, 0]], 2e-3)
+        >>> lumen = mw.Lumen.tree({"ahead": ahead, "aside": aside}, target="aside")
+        >>> lumen.outlets
+        ('ahead', 'aside')
+        >>> lumen.path("ahead").length
+        0.08
+
+        Notes
+        -----
+        (P-10) of the theory pages.
+        """
+        lines = _lines(branches)
+        radii = [line.curve.at(line.curve.knots())[:, 3].min() for line in lines.values()]
+        width = BLEND * float(min(radii)) if blend is None else blend
+        width = nonnegative("Lumen.tree", "blend", width, "m")
+        walls, paths = join(lines, width)
+        return cls(walls, blend=width, paths=paths, target=target)
+
+    @classmethod
     def open_space(cls) -> Lumen:
         """No wall anywhere; the entrance is the origin and the wire enters along x."""
         return cls(())
@@ -171,7 +259,29 @@ class Lumen:
         if nonnegative("Lumen.with_entry", "length", length, "m") == 0.0 or not self.branches:
             return self
         first = self.branches[0].with_entry(length)
-        return replace(self, branches=(first, *self.branches[1:]))
+        paths = {name: path.with_entry(length) for name, path in self.paths.items()}
+        return replace(self, branches=(first, *self.branches[1:]), paths=paths)
+
+    @property
+    def outlets(self) -> tuple[str, ...]:
+        """Names of a tree's outlets, in the order of its branches; empty for a single tube."""
+        return tuple(self.paths)
+
+    def path(self, target: str | None = None) -> Lumen:
+        """The way from the entrance to an outlet as a lumen of one branch.
+
+        Its centreline is twice continuously differentiable, also where it goes from one branch
+        into the next. Its wall is not that of the tree, which is wider at a junction.
+
+        Parameters
+        ----------
+        target
+            Name of the outlet; the lumen's own target if left out.
+        """
+        if not self.paths and target is None:
+            return self
+        name = self.target if target is None else self._known("target", target)
+        return self._ways[str(name)]
 
     @property
     def entrance(self) -> Array:
@@ -185,7 +295,9 @@ class Lumen:
 
     @property
     def length(self) -> float:
-        """Arc length of the first branch [m]; infinite in open space."""
+        """Arc length from the entrance to the target [m]; infinite in open space."""
+        if self.target is not None:
+            return self.paths[self.target].length
         return self.branches[0].length if self.branches else float("inf")
 
     @property
@@ -282,6 +394,21 @@ class Lumen:
         return scaled(self._arrays, positive("Lumen.arrays", "length_scale", length_scale, "m"))
 
     @cached_property
+    def _ways(self) -> dict[str, Lumen]:
+        """Every path as a lumen."""
+        return {name: Lumen((path,)) for name, path in self.paths.items()}
+
+    def _known(self, name: str, outlet: str) -> str:
+        """The name of an outlet, checked."""
+        if outlet in self.paths:
+            return outlet
+        words = ", ".join(f"'{known}'" for known in self.paths)
+        expected = (
+            f"one of the outlets {words}" if words else "left out for a lumen without outlets"
+        )
+        raise InputError(f"Input {name} of Lumen must be {expected}; received {outlet!r}.")
+
+    @cached_property
     def _arrays(self) -> LumenArrays:
         """Arrays in metres, built on first use."""
         return build(self.branches, self.blend)
@@ -303,3 +430,24 @@ class Lumen:
         branch = np.empty(len(where), dtype=np.int32)
         gap_many(self._arrays, where, gap, arc, branch)
         return gap, arc, branch
+
+
+def _lines(branches: Mapping[str, Lumen]) -> dict[str, Branch]:
+    """The tubes of a tree by name, checked."""
+    given: object = branches
+    if not isinstance(given, Mapping) or not given:
+        raise InputError(
+            "Input branches of Lumen.tree must be a mapping of names to lumens with at least one "
+            f"entry; received {type(given).__name__ if given else 'none'}."
+        )
+    lines = {}
+    for name, tube in given.items():
+        if not isinstance(name, str) or not isinstance(tube, Lumen) or len(tube.branches) != 1:
+            count = f"with {len(tube.branches)} branches" if isinstance(tube, Lumen) else ""
+            raise InputError(
+                "Input branches of Lumen.tree must map names to lumens of one branch; received "
+                f"{type(tube).__name__} {count}".rstrip()
+                + f" for {name!r}."
+            )
+        lines[name] = tube.branches[0]
+    return lines

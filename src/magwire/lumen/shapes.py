@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
 
 Array = NDArray[np.float64]
 Shape = tuple[Array, Array, Array]
@@ -59,3 +60,31 @@ def helix(helix_radius: float, pitch: float, length: float, points: int) -> Shap
     )
     tangents /= per_radian
     return np.column_stack([x, y, rise * w]), tangents[0], tangents[-1]
+
+
+def bends(table: Array, points: int) -> Shape:
+    """Curve of given curvatures k1, k2, linear in arc length between the rows (s, k1, k2).
+
+    c' = t, t' = k1 m1 + k2 m2, m1' = -k1 t, m2' = -k2 t from c = 0, t = x, m1 = y, m2 = z: the
+    frame goes along without twist.
+    """
+
+    def slope(s: float, state: Array) -> Array:
+        t, m1, m2 = state[3:].reshape(3, 3)
+        k1, k2 = np.interp(s, table[:, 0], table[:, 1]), np.interp(s, table[:, 0], table[:, 2])
+        return np.concatenate([t, k1 * m1 + k2 * m2, -k1 * t, -k2 * t])
+
+    length = float(table[-1, 0])
+    s = np.linspace(0.0, length, points)
+    state = np.concatenate([np.zeros(3), np.eye(3).ravel()])
+    begin = state[3:6]
+    places = [np.zeros((0, 3))]
+    for low, high in zip(table[:-1, 0], table[1:, 0], strict=True):  # smooth between the rows
+        stops = np.append(s[(s >= low) & (s < high)], high)
+        scale = np.concatenate([np.full(3, length), np.ones(9)])
+        course = solve_ivp(
+            slope, (low, high), state, "DOP853", t_eval=stops, rtol=1e-11, atol=1e-12 * scale
+        ).y.T
+        places.append(course[:-1, :3])
+        state = course[-1]
+    return np.concatenate([*places, state[None, :3]]), begin, state[3:6]

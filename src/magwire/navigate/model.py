@@ -12,7 +12,7 @@ from magwire.engine.system import System
 from magwire.kernels.arrays import Field, Motion, Mouth, State
 from magwire.kernels.gap import gap_value
 from magwire.kernels.guide import find_mouth, place_held
-from magwire.kernels.linearise import Linear, linearise
+from magwire.kernels.linearise import Linear, linearise, tube_force
 from magwire.kernels.march import Plan, Tally, march
 from magwire.kernels.newton import newton
 from magwire.lumen import Lumen
@@ -64,6 +64,9 @@ class Model:
         Wire, lumen and wall as the navigator believes them to be.
     path
         Tube around the centreline that the tip is to follow.
+    tube_radius
+        Radius of the virtual tube, which holds the tip on the centreline [m] (P-19); there is none
+        if left out.
 
     Attributes
     ----------
@@ -75,14 +78,15 @@ class Model:
         Equilibria solved so far.
     """
 
-    def __init__(self, system: System, path: Lumen) -> None:
+    def __init__(self, system: System, path: Lumen, tube_radius: float | None = None) -> None:
         self.system = system
         self.path = path
         self.feed = 0.0
         self.flux: Array = np.zeros(3)
         self.solves = 0
         self._state, self._work = system.new_state(), system.new_work()
-        self._wall, self._limits = system.new_wall(), system.step_limits()
+        tube = None if tube_radius is None else system.new_tube(path, tube_radius)
+        self._wall, self._limits = system.new_wall(tube), system.step_limits()
         self._velocity = np.zeros_like(self._state.q)
         self._held = system.wire.nodes
         self._tube = path.arrays(system.wire.length)
@@ -146,15 +150,40 @@ class Model:
         where = np.array([arc * length])
         centre, along = curve.at(where)[0], curve.at(where, 1)[0, :3]
         axes = across(along)
-        last = 4 * (len(self._state.q) - self._held)
-        moves = self._linear.moves[:, last : last + 3].T * length
         return View(
             offset=axes @ (tip * length - centre[:3]),
-            offset_by_flux=axes @ moves,
+            offset_by_flux=axes @ self._tip_moves() * length,
             radius=float(centre[3]),
             eigenvalue=float(value),
             eigenvalue_by_flux=self._linear.slope.copy(),
         )
+
+    def tube_force(self) -> Array:
+        """Force of the virtual tube on the tip, shape (3,) [N] (P-19)."""
+        return self._tube_force()[0]
+
+    def hold(self) -> tuple[Array, Array]:
+        """Force of the virtual tube on the tip [N], and its derivative by the flux density [N/T].
+
+        Shapes (3,) and (3, 3) (P-19, P-21). At an unstable equilibrium the derivative is zero.
+        """
+        force, slope = self._tube_force()
+        value = linearise(self._model(), self._state, self._mouth(), self._work, self._linear)
+        moves = self._tip_moves() if value > 0.0 else np.zeros((3, 3))
+        return force, slope @ moves
+
+    def _tube_force(self) -> tuple[Array, Array]:
+        """Force of the virtual tube, and its derivative by the tip's scaled position [N]."""
+        force, slope = np.zeros(3), np.zeros((3, 3))
+        tube_force(self._model(), self._state, force, slope)
+        unit = self.system.scales.force
+        return force * unit, slope * unit
+
+    def _tip_moves(self) -> Array:
+        """Change of the scaled tip position by the flux density [1/T], from the linearisation."""
+        last = 4 * (len(self._state.q) - self._held)
+        moves: Array = self._linear.moves[:, last : last + 3].T
+        return moves
 
     def remember(self) -> Memory:
         """What it takes to come back here."""

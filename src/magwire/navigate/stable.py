@@ -82,7 +82,7 @@ class StableNavigator:
     system
         Wire, lumen and wall as the navigator believes them to be.
     path
-        The tube that the tip is to follow; the lumen itself if left out.
+        The tube that the tip is to follow; the path to the lumen's target if left out.
     demands
         What the schedule must keep to.
     plan_every
@@ -106,7 +106,7 @@ class StableNavigator:
         scale = system.scales.flux_density
         if not scale > 0.0:
             raise InputError("Input wire of StableNavigator must be magnetised; received none.")
-        path = system.lumen if path is None else path
+        path = system.path if path is None else path
         if len(path.branches) != 1:
             raise InputError(
                 "Input path of StableNavigator must have one branch; "

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -21,6 +22,8 @@ FLAT = 1e-6
 """Extent across a coordinate plane, over the largest extent, up to which a lumen is planar."""
 SIDES = 28
 """Corners of a cross-section of the lumen drawn in space."""
+VIEW = (24.0, -58.0)
+"""Elevation and azimuth that a single tube is seen from [deg]."""
 GUIDE = 0.12
 """Length of the guide that is shown before the entrance, over the largest extent."""
 
@@ -99,8 +102,9 @@ def draw_planar(ax: Axes, data: xr.Dataset, pair: tuple[int, int]) -> None:
 
 def draw_spatial(ax: Any, data: xr.Dataset) -> None:
     """Draw lumen and wires in space, on three-dimensional axes."""
-    for part in branches(data):
-        x, y, z = _tube(part)
+    parts = branches(data)
+    for part in parts:
+        x, y, z = _outside(_tube(part), [other for other in parts if other is not part])
         ax.plot_surface(
             x, y, z, color=style.LUMEN_EDGE, alpha=0.16, linewidth=0.0, shade=False, zorder=1,
             rstride=1, cstride=1, antialiased=True, rasterized=True,
@@ -111,8 +115,9 @@ def draw_spatial(ax: Any, data: xr.Dataset) -> None:
         ax.plot(*inside.T, color=colour, linewidth=1.8, zorder=3)
         ax.plot(*nodes[-1:].T, "o", color=colour, markersize=4, mec="white", mew=0.5, zorder=4)
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-    ax.set_box_aspect(high - low, zoom=1.0)
-    ax.view_init(elev=24, azim=-58)
+    ax.set_box_aspect(high - low, zoom=1.0 if len(parts) < 2 else 0.95)
+    elevation, azimuth = _view(parts)
+    ax.view_init(elev=elevation, azim=azimuth)
     for axis, name in zip((ax.xaxis, ax.yaxis, ax.zaxis), "xyz", strict=True):
         axis.set_pane_color((1.0, 1.0, 1.0, 0.0))
         axis.line.set_color(style.MUTED)
@@ -121,6 +126,40 @@ def draw_spatial(ax: Any, data: xr.Dataset) -> None:
         axis.set_label_text(f"{name} [mm]")
         axis.labelpad = -6
         axis.set_tick_params(pad=-3)
+
+
+def _view(parts: list[Branch]) -> tuple[float, float]:
+    """Elevation and azimuth [deg]: a tree is seen from where its ends are well apart."""
+    if len(parts) < 2:
+        return VIEW
+    ends = np.array([parts[0].points[0], *(part.points[-1] for part in parts)])
+    first, second = np.triu_indices(len(ends), 1)
+    halves = [part.points[-1] - part.points[len(part.points) // 2] for part in parts]
+    shown = np.concatenate([ends[first] - ends[second], 2.0 * np.array(halves)])
+    best, view = -1.0, VIEW
+    for elevation, azimuth in itertools.product(range(15, 50, 5), range(-120, -35, 5)):
+        up, around = np.radians(elevation), np.radians(azimuth)
+        eye = [np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)]
+        apart = float(np.linalg.norm(np.cross(shown, eye), axis=1).min())
+        if apart > best:
+            best, view = apart, (float(elevation), float(azimuth))
+    return view
+
+
+def _outside(wall: tuple[Array, Array, Array], others: list[Branch]) -> tuple[Array, Array, Array]:
+    """The wall without what lies inside of other branches; one ring of it stays."""
+    corners = np.stack(wall, axis=-1)
+    inside = np.zeros(corners.shape[:2], dtype=bool)
+    for other in others:
+        for k, ring in enumerate(corners):
+            away = np.linalg.norm(ring[:, None] - other.points, axis=2)
+            inside[k] |= np.any(away < other.radius, axis=1)
+    lost = inside.copy()
+    lost[:-1] &= inside[1:]
+    lost[1:] &= inside[:-1]
+    lost &= np.roll(inside, 1, axis=1) & np.roll(inside, -1, axis=1)
+    corners[lost] = np.nan
+    return corners[..., 0], corners[..., 1], corners[..., 2]
 
 
 def _few_ticks() -> Any:

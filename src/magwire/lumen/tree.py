@@ -1,0 +1,274 @@
+"""Trees: named tubes joined into the branches and the paths of one lumen (P-10)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from math import ceil, degrees, tan
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import BPoly
+from scipy.spatial import KDTree
+
+from magwire.errors import InputError
+from magwire.lumen.branch import Branch
+from magwire.lumen.curve import Curve
+
+Array = NDArray[np.float64]
+
+BLEND = 0.2  # default width of the blend, over the smallest radius of the tree
+SHARED = 0.01  # distance at which two centrelines stop being one, over the radius
+WIDER = 1.05  # largest radius of a branch where it leaves, over its parent's
+RUN_IN = 1.0  # length over which a branch takes on its radius, at least, over the radius
+STEEPNESS = 5.0  # that length over what the radius gains, at least
+ROUNDING = 1.6  # bend radius of a path around the corner of a junction, over the parent's radius
+OFF_AXIS = 0.5  # farthest from its parent's centreline that a branch starts, over the radius
+DENSITY = 8.0  # samples per radius of arc length
+
+
+class Tree(NamedTuple):
+    """The wall's branches and the centrelines from the entrance to each outlet, by its name."""
+
+    branches: tuple[Branch, ...]
+    paths: dict[str, Branch]
+
+
+@dataclass(frozen=True, eq=False)
+class _Trace:
+    """A named centreline that points are projected on."""
+
+    name: str
+    curve: Curve
+
+    @cached_property
+    def arcs(self) -> Array:
+        """Arc parameters of the samples, shape (n,) [m]."""
+        return sampled(self.curve)
+
+    @cached_property
+    def _samples(self) -> KDTree:
+        return KDTree(self.curve.at(self.arcs)[:, :3])
+
+    def nearest(self, points: Array) -> tuple[Array, Array, Array]:
+        """Distance, arc parameter and radius at the nearest point, shapes (n,) [m]."""
+        s = self.arcs[self._samples.query(points)[1]]
+        for _ in range(4):  # Newton's method on (c - x).c' = 0
+            away = self.curve.at(s)[:, :3] - points
+            first, second = self.curve.at(s, 1)[:, :3], self.curve.at(s, 2)[:, :3]
+            slope = np.sum(first * first, axis=1) + np.sum(away * second, axis=1)
+            step = np.sum(away * first, axis=1) / np.maximum(slope, 0.1)
+            s = np.clip(s - step, 0.0, self.curve.length)
+        ball = self.curve.at(s)
+        return np.linalg.norm(ball[:, :3] - points, axis=1), s, ball[:, 3]
+
+
+def sampled(curve: Curve) -> Array:
+    """Arc parameters of evenly spaced points along a curve, several per radius."""
+    radius = float(curve.at(curve.knots())[:, 3].min())
+    count = max(ceil(DENSITY * curve.length / radius), len(curve.coefficients))
+    return np.linspace(0.0, curve.length, count + 1)
+
+
+def join(lines: Mapping[str, Branch], width: float) -> Tree:
+    """The tree of tubes that each start at the entrance or in a tube before them.
+
+    Parameters
+    ----------
+    lines
+        Tubes by the names of their outlets. The first one starts at the entrance; the wall of each
+        further one counts from where it leaves those before it.
+    width
+        Width over which branches blend [m].
+    """
+    names = list(lines)
+    first = lines[names[0]]
+    walls, paths = [first], {names[0]: first}
+    for name in names[1:]:
+        wall, path = _attach(name, lines[name], walls, paths, width)
+        walls.append(wall)
+        paths[name] = path
+    _check_courses(names, walls)
+    return Tree(tuple(walls), paths)
+
+
+def _attach(
+    name: str, line: Branch, walls: list[Branch], paths: dict[str, Branch], width: float
+) -> tuple[Branch, Branch]:
+    """Wall and path of one more branch."""
+    ways = [_Trace(other, path.curve) for other, path in paths.items()]
+    first = next(iter(paths.values()))
+    near = SHARED * float(first.radius[0])
+    if np.linalg.norm(line.entrance - first.entrance) <= near:
+        start = _leaves(name, line, ways)
+        path, arcs = line, sampled(line.curve)
+        arcs = np.append(start, arcs[arcs > start + 0.5 * arcs[1]])
+    else:
+        path, arcs = _path(name, line, ways, paths), sampled(line.curve)
+    balls = line.curve.at(arcs)
+    others = [_Trace("", wall.curve) for wall in walls]
+    radius = _run_in(name, arcs - arcs[0], balls, others, width)
+    begin, end = line.curve.at(arcs[[0, -1]], 1)[:, :3]
+    wall = Branch(
+        balls[:, :3],
+        radius,
+        begin_tangent=begin,
+        end_tangent=end,
+        open_begin=False,
+        open_end=line.open_end,
+    )
+    return wall, path
+
+
+def _leaves(name: str, line: Branch, ways: list[_Trace]) -> float:
+    """Arc parameter where a tube from the entrance leaves the ones before it [m]."""
+    arcs = sampled(line.curve)
+    points = line.curve.at(arcs)[:, :3]
+    apart = np.full(len(arcs), np.inf)
+    for way in ways:
+        distance, _, radius = way.nearest(points)
+        apart = np.minimum(apart, distance / radius)
+    away = np.flatnonzero(apart > SHARED)
+    if len(away) == 0:
+        raise _refuse(f"'{name}' runs along '{ways[0].name}' to its end")
+    return float(arcs[max(int(away[0]) - 1, 0)])
+
+
+def _path(name: str, line: Branch, ways: list[_Trace], paths: dict[str, Branch]) -> Branch:
+    """Centreline from the entrance into a tube that starts in one before it.
+
+    Around the corner of the junction it leaves both lines, to turn as gently as the parent is
+    wide; past the parent's wall it is on the tube's axis again.
+    """
+    way, arc, off = _parent(name, line.entrance, ways)
+    parent = paths[way.name].curve
+    _check_width(name, float(line.radius[0]), float(parent.at(np.array([arc]))[0, 3]))
+    centre, ahead = parent.at(np.array([arc]))[0], parent.at(np.array([arc]), 1)[0, :3]
+    turn = float(np.arccos(np.clip(ahead @ line.direction / np.linalg.norm(ahead), -1.0, 1.0)))
+    wanted = max(ROUNDING * centre[3] * tan(0.5 * min(turn, 2.0)), 2.0 * off)
+    cut = min(wanted, centre[3] + line.radius[0], 0.5 * line.length)
+    cut = max(cut, 0.5 * sampled(line.curve)[1])
+    if cut >= arc:
+        raise _refuse(f"'{name}' leaves '{way.name}' too close to the entrance")
+    before, after = sampled(parent), sampled(line.curve)
+    before = np.append(before[before < arc - 1.1 * cut], arc - cut)
+    after = np.append(cut, after[after > 1.1 * cut])
+    balls = _turn(parent.at(before), line.curve.at(after), (parent, arc - cut), (line.curve, cut))
+    tangents = parent.at(np.zeros(1), 1)[0, :3], line.curve.at(np.array([line.length]), 1)[0, :3]
+    try:
+        return Branch(balls[:, :3], balls[:, 3], begin_tangent=tangents[0], end_tangent=tangents[1])
+    except InputError:
+        raise _refuse(
+            f"'{name}' turns by {degrees(turn):.0f} degrees from '{way.name}', which is too sharp"
+        ) from None
+
+
+def _parent(name: str, start: Array, ways: list[_Trace]) -> tuple[_Trace, float, float]:
+    """The way that a tube starts on, the arc parameter there and the distance from it [m]."""
+    found = [way.nearest(start[None]) for way in ways]
+    closest = int(np.argmin([distance[0] for distance, _, _ in found]))
+    distance, arc, radius = (float(values[0]) for values in found[closest])
+    if distance > OFF_AXIS * radius:
+        x, y, z = start
+        raise InputError(
+            "Input branches of Lumen.tree must start at the entrance or within half a radius of "
+            f"the centreline of one before them; received '{name}', which starts at "
+            f"({x:.6g}, {y:.6g}, {z:.6g}) m, {distance:.6g} m from the centreline of "
+            f"'{ways[closest].name}' with radius {radius:.6g} m."
+        )
+    return ways[closest], arc, distance
+
+
+def _turn(
+    before: Array, after: Array, begin: tuple[Curve, float], end: tuple[Curve, float]
+) -> Array:
+    """Balls of two lines and of a turn from one into the other, shape (n, 4).
+
+    The turn is a polynomial of degree five with the points, tangents and curvatures of both at its
+    ends. In the turn the radius is that of the second line.
+    """
+    ends = [c.at(np.array([s]), k)[0, :3] for c, s in (begin, end) for k in range(3)]
+    chord = float(np.linalg.norm(ends[3] - ends[0]))
+    ends = [values * chord ** (i % 3) for i, values in enumerate(ends)]
+    course = BPoly.from_derivatives([0.0, 1.0], [ends[:3], ends[3:]])
+    count = max(ceil(DENSITY * chord / after[0, 3]), 4)
+    turn = course(np.linspace(0.0, 1.0, count + 1))[1:-1]
+    points = np.concatenate([before[:, :3], turn, after[:1, :3]])
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    left = np.cumsum(steps[::-1])[::-1]
+    wide = np.append(before[:, 3], np.full(len(turn), before[-1, 3]))
+    whole = left[len(before) - 1]
+    share = _ramp(1.0 - (left - whole) / max(whole, 2.5 * (before[-1, 3] - after[0, 3])))
+    balls = np.column_stack([points[:-1], wide + share * (after[0, 3] - wide)])
+    return np.concatenate([balls, after])
+
+
+def _run_in(name: str, arcs: Array, balls: Array, others: list[_Trace], width: float) -> Array:
+    """Radius of a branch: at its start so small that the blend does not see it.
+
+    The first ball lies ``width`` inside of a branch before it, and its cap with it. From there the
+    radius grows to its own.
+    """
+    found = [other.nearest(balls[:1, :3]) for other in others]
+    gaps = [float(radius[0] - distance[0]) for distance, _, radius in found]
+    deepest = int(np.argmax(gaps))
+    wide, parent = float(balls[0, 3]), float(found[deepest][2][0])
+    _check_width(name, wide, parent)
+    lost = max(wide - (gaps[deepest] - 1.001 * width), 0.0)
+    if lost > 0.75 * wide:
+        raise InputError(
+            "Input blend of Lumen.tree must be smaller than the branches are wide; received "
+            f"{width:.6g} m where '{name}' has a radius of {wide:.6g} m."
+        )
+    return np.asarray(
+        balls[:, 3] - lost * (1.0 - _ramp(arcs / max(RUN_IN * wide, STEEPNESS * lost)))
+    )
+
+
+def _check_width(name: str, wide: float, parent: float) -> None:
+    """Refuse a branch that is wider than what it leaves."""
+    if wide > WIDER * parent:
+        raise _refuse(f"'{name}' is wider ({wide:.6g} m) than what it leaves ({parent:.6g} m)")
+
+
+def _ramp(t: Array) -> Array:
+    """From 0 at t = 0 to 1 at t = 1, with continuous second derivative."""
+    t = np.clip(t, 0.0, 1.0)
+    return np.asarray(t**3 * (10.0 + t * (6.0 * t - 15.0)))
+
+
+def _check_courses(names: list[str], walls: list[Branch]) -> None:
+    """Refuse branches that never leave the others, or come back to them."""
+    traces = [_Trace(name, wall.curve) for name, wall in zip(names, walls, strict=True)]
+    for i, trace in enumerate(traces):
+        balls = trace.curve.at(trace.arcs)
+        free = np.full(len(balls), np.inf)
+        for other in traces[:i]:
+            distance, _, radius = other.nearest(balls[:, :3])
+            free = np.minimum(free, distance - radius - balls[:, 3])
+        clear = np.flatnonzero(free > 0.0)
+        if len(clear) > 0:
+            back = clear[0] + np.flatnonzero(free[clear[0] :] < -balls[clear[0] :, 3])
+            if len(back) > 0:
+                x, y, z = balls[back[0], :3]
+                raise _refuse(
+                    f"'{trace.name}' comes back to another branch near "
+                    f"({x:.6g}, {y:.6g}, {z:.6g}) m"
+                )
+        for other in traces:
+            distance, _, radius = other.nearest(balls[-1:, :3])
+            overlap = float(radius[0] + balls[-1, 3] - distance[0])
+            if other is not trace and overlap > 0.0:
+                raise _refuse(
+                    f"the outlet '{trace.name}' overlaps '{other.name}' by {overlap:.6g} m"
+                )
+
+
+def _refuse(what: str) -> InputError:
+    """Fault of the branches' course."""
+    return InputError(
+        "Input branches of Lumen.tree must leave those before them, no wider than them, and end "
+        f"clear of all others; {what}."
+    )
