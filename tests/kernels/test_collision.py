@@ -9,8 +9,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from magwire.kernels.centreline import LumenArrays
 from magwire.kernels.collision import CLOSEST, travel
-from magwire.kernels.gap import LumenArrays
 from magwire.lumen import Lumen
 
 from .rods import Array

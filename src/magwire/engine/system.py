@@ -14,7 +14,7 @@ from magwire.engine.record import Scales
 from magwire.errors import array, nonnegative, one_of
 from magwire.kernels.arrays import Guide, Rod, State, Tube, Wall, Work
 from magwire.kernels.band import HALF_BANDWIDTH, WIDTH
-from magwire.kernels.gap import LumenArrays
+from magwire.kernels.centreline import LumenArrays
 from magwire.kernels.newton import Limits
 from magwire.lumen import Lumen
 from magwire.wire import Mesh, Wire, lay_out

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.kernels.gap import LumenArrays
+from magwire.kernels.centreline import LumenArrays
 
 Array = NDArray[np.float64]
 

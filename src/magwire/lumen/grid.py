@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_cdt
 
-from magwire.kernels.gap import (
+from magwire.kernels.centreline import (
     BEGIN,
     COLUMNS,
     END,

@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import KDTree
 
 from magwire.errors import InputError, array, nonnegative, positive, whole
-from magwire.kernels.gap import LumenArrays, gap_many
+from magwire.kernels.centreline import LumenArrays
+from magwire.kernels.gap import gap_many
 from magwire.lumen import shapes
 from magwire.lumen.branch import Bend, Branch
 from magwire.lumen.grid import build, scaled

@@ -105,7 +105,7 @@ class PaperNavigator:
         for _ in range(numbers.iterations):
             if float(np.linalg.norm(force)) <= small:
                 return
-            change: Array = np.linalg.lstsq(self._jacobian(force), force, rcond=RANK)[0]
+            change = np.linalg.lstsq(self._jacobian(force), force, rcond=RANK)[0]
             if not model.settle(model.flux - numbers.beta1 * last - numbers.beta2 * change):
                 raise NavigationError(
                     f"At {feed * 1e3:.4g} mm of feed the optimiser's next field has no equilibrium."
