@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     from magwire.field import GradientField as GradientField
     from magwire.field import UniformField as UniformField
     from magwire.lumen import Lumen as Lumen
+    from magwire.navigate import Prescribed as Prescribed
+    from magwire.navigate import Schedule as Schedule
+    from magwire.navigate.stable import Demands as Demands
+    from magwire.navigate.stable import StableNavigator as StableNavigator
     from magwire.results import Result as Result
     from magwire.scenario import Scenario as Scenario
     from magwire.scenario import load as load_scenario
@@ -34,18 +38,22 @@ if TYPE_CHECKING:
 _HOMES: dict[str, tuple[str, str]] = {
     "Barrier": ("magwire.contact", "Barrier"),
     "ConvergenceError": ("magwire.errors", "ConvergenceError"),
+    "Demands": ("magwire.navigate.stable", "Demands"),
     "Equilibrium": ("magwire.engine.statics", "Equilibrium"),
     "Feed": ("magwire.engine.feed", "Feed"),
     "GradientField": ("magwire.field", "GradientField"),
     "InputError": ("magwire.errors", "InputError"),
     "Lumen": ("magwire.lumen", "Lumen"),
     "MagwireError": ("magwire.errors", "MagwireError"),
+    "Prescribed": ("magwire.navigate", "Prescribed"),
     "Result": ("magwire.results", "Result"),
     "ResultError": ("magwire.errors", "ResultError"),
     "Scenario": ("magwire.scenario", "Scenario"),
     "ScenarioError": ("magwire.errors", "ScenarioError"),
+    "Schedule": ("magwire.navigate", "Schedule"),
     "Section": ("magwire.wire", "Section"),
     "Simulation": ("magwire.simulation", "Simulation"),
+    "StableNavigator": ("magwire.navigate.stable", "StableNavigator"),
     "UniformField": ("magwire.field", "UniformField"),
     "Wire": ("magwire.wire", "Wire"),
     "load_scenario": ("magwire.scenario", "load"),
@@ -55,18 +63,22 @@ _HOMES: dict[str, tuple[str, str]] = {
 __all__ = [
     "Barrier",
     "ConvergenceError",
+    "Demands",
     "Equilibrium",
     "Feed",
     "GradientField",
     "InputError",
     "Lumen",
     "MagwireError",
+    "Prescribed",
     "Result",
     "ResultError",
     "Scenario",
     "ScenarioError",
+    "Schedule",
     "Section",
     "Simulation",
+    "StableNavigator",
     "UniformField",
     "Wire",
     "__version__",

@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import App, CycloptsError, Parameter
 
@@ -19,16 +19,19 @@ from magwire.errors import MagwireError
 if TYPE_CHECKING:
     from magwire.engine.record import Record
     from magwire.results import Result
+    from magwire.scenario import Scenario
     from magwire.scenario.job import Job
 
 INTERRUPTED = 130
 """Exit status after Ctrl-C, as shells have it."""
 RESULT, SCENARIO, FIGURES = "result.nc", "scenario.toml", ("figure.png", "figure.svg")
+PASSIVE, SCHEDULE = "result-none.nc", "schedule.csv"
 COLUMN = 20
 """Width of the names in the summary."""
 
 Folder = Annotated[Path | None, Parameter(help="Folder for the output.")]
 Force = Annotated[bool, Parameter(negative="", help="Overwrite what is there.")]
+Overrides = Annotated[list[str] | None, Parameter(name="--set", consume_multiple=True)]
 
 app = App(
     name="magwire",
@@ -118,6 +121,8 @@ def plot(result: Path, /, *, out: Folder = None, force: Force = False) -> None:
 
     data = Result.load(result)
     beside = result if result.is_dir() else result.parent
+    compared = (result.is_dir() or result.name == RESULT) and (beside / PASSIVE).exists()
+    passive = Result.load(beside / PASSIVE).dataset if compared else None
     folder = out or beside
     if folder.exists() and not folder.is_dir():
         raise CommandError(f"Output folder '{folder}' is a file.")
@@ -127,7 +132,7 @@ def plot(result: Path, /, *, out: Folder = None, force: Force = False) -> None:
             f"Folder '{folder}' holds {' and '.join(there)} already; use --force to overwrite."
         )
     with writing_to(folder):
-        for path in pictures.save(data.dataset, folder):
+        for path in pictures.save(data.dataset, folder, passive=passive):
             say(str(path))
 
 
@@ -136,8 +141,9 @@ def run(
     scenario: str,
     /,
     *,
-    overrides: Annotated[list[str] | None, Parameter(name="--set", consume_multiple=True)] = None,
+    overrides: Overrides = None,
     out: Folder = None,
+    compare: Literal["none"] | None = None,
     force: Force = False,
 ) -> int:
     """Run a scenario: result, summary and figure.
@@ -150,30 +156,98 @@ def run(
         Keys to set in the scenario, such as wire.radius="0.5 mm".
     out
         Folder for the output; NAME-result in the working folder if left out.
+    compare
+        Run the scenario without steering, too, and show both.
     force
         Overwrite what a former run left in the folder.
     """
     from magwire.scenario import load
 
     described = load(scenario, overrides or ())
+    if compare is not None and described.navigate.method == "none":
+        raise CommandError(
+            "Option --compare none needs a scenario that is steered; navigate.method is 'none'."
+        )
     folder = out or Path(f"{Path(scenario).stem}-result")
+    return carry_out(described, folder, compare=compare is not None, force=force)
+
+
+@app.command
+def replay(
+    result: Path,
+    /,
+    *,
+    scale: float = 1.0,
+    resample: str | None = None,
+    overrides: Overrides = None,
+    out: Folder = None,
+    force: Force = False,
+) -> int:
+    """Run a result's scenario again in the field that was recorded, whatever the wire does.
+
+    Parameters
+    ----------
+    result
+        Result file, or the folder that holds it.
+    scale
+        Factor on the recorded field, such as 1.03 for a field that is 3 percent too strong.
+    resample
+        Feed between two values of the field that are kept, such as "2 mm"; it is linear between.
+    overrides
+        Keys to set in the scenario, such as wire.youngs_modulus="3.1 MPa".
+    out
+        Folder for the output; NAME-replay in the working folder if left out.
+    force
+        Overwrite what a former run left in the folder.
+    """
+    from magwire.results import Result
+    from magwire.scenario.schedules import replayed
+    from magwire.units import parse
+
+    step = None if resample is None else parse(resample, "length", "--resample")
+    described = replayed(Result.load(result), overrides or (), scale=scale, resample=step)
+    name = result.resolve() if result.is_dir() or result.name != RESULT else result.resolve().parent
+    folder = out or Path(f"{name.stem}-replay")
+    return carry_out(described, folder, force=force)
+
+
+def carry_out(
+    described: Scenario, folder: Path, *, compare: bool = False, force: bool = False
+) -> int:
+    """Run a scenario and leave all that comes of it in a folder; the exit status."""
     check_free(folder, force=force)
     job = described.build()
     with writing_to(folder):
-        for name in (RESULT, *FIGURES):
+        for name in (RESULT, PASSIVE, SCHEDULE, *FIGURES):
             (folder / name).unlink(missing_ok=True)
         (folder / SCENARIO).write_text(described.to_toml(), encoding="utf-8")
-    result = simulate(job, folder / RESULT)
+    results = [simulate(job, folder / RESULT)]
+    if compare and results[0] is not None and results[0].status != "interrupted":
+        results.append(simulate(described.unsteered().build(), folder / PASSIVE))
+    result, *others = results
     if result is None:
         complain("The run was interrupted before its first record.")
         return INTERRUPTED
-    for line in summary(result):
+    passive = others[0] if others else None
+    steered = described.navigate.method != "none"
+    for line in summary(result, steered=steered, passive=passive):
         say(line)
     with writing_to(folder):
         from magwire import plot as pictures
+        from magwire.scenario import schedule_of, write_schedule
 
-        pictures.save(result.dataset, folder)
+        pictures.save(result.dataset, folder, passive=passive.dataset if passive else None)
+        if steered and result.time.size:
+            write_schedule(schedule_of(result), folder / SCHEDULE)
     say(f"{'written to':{COLUMN}}{folder}")
+    return max(outcome(run) for run in results)
+
+
+def outcome(result: Result | None) -> int:
+    """The exit status of a run, with a word on standard error if it did not reach its end."""
+    if result is None:
+        complain("The run without steering was interrupted before its first record.")
+        return INTERRUPTED
     if result.status == "complete":
         return 0
     complain(result.message or f"The run ended early: {result.status}.")
@@ -236,8 +310,18 @@ def progress(duration: float) -> Iterator[Callable[[Record], None]]:
         yield watch
 
 
-def summary(result: Result) -> list[str]:
-    """What to know of a run, a line each."""
+def summary(result: Result, *, steered: bool = False, passive: Result | None = None) -> list[str]:
+    """What to know of a run, a line each.
+
+    Parameters
+    ----------
+    result
+        The run.
+    steered
+        Whether to say how well it was steered.
+    passive
+        The same run with nobody steering, to compare with.
+    """
     from magwire.units import show
 
     def force(newtons: float) -> str:
@@ -250,15 +334,26 @@ def summary(result: Result) -> list[str]:
     length = float(result.dataset.attrs["length_scale"])
     clearance = result.smallest_clearance
     pace = result.wall_time / simulated if simulated > 0.0 else math.nan
+    scale = float(result.dataset.attrs["field_scale"])  # NaN without a magnet
+    behind = "the wire behind it does" if contact is not None else "nor does the wire behind it"
+    steering = {
+        "contact-free": f"yes, the tip never touches; {behind}" if result.contact_free else "no",
+        "largest tip offset": show(result.largest_tip_offset, "length"),
+        "peak field": show(result.peak_field, "flux_density")
+        + ("" if math.isnan(scale) else f", normalised {result.peak_field / scale:.4g}"),
+    }
     rows = {
         "status": result.status,
         "fed": f"{show(fed, 'length')} in {result.steps} steps, {simulated:.4g} s simulated",
         "peak tip force": force(result.max_tip_force),
+        **({"  not steered": force(passive.max_tip_force)} if passive else {}),
         "mean tip force": force(result.mean_tip_force),
+        **({"  not steered ": force(passive.mean_tip_force)} if passive else {}),
         "smallest clearance": "none, no wall" if math.isnan(clearance) else f"{clearance:.3e} m",
         "first contact": "none"
         if contact is None
         else f"at a feed of {show(contact, 'length')}, push {contact / length:.3f}",
+        **(steering if steered else {}),
         "Newton iterations": f"{result.newton_iterations_per_step:.2f} per step",
         "wall time": f"{pace:.4g} s per simulated second, {result.wall_time:.2f} s in all",
     }

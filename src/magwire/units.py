@@ -107,6 +107,9 @@ DIMENSIONS: dict[str, Dimension] = {
         "curvature", "10 1/m", {"1/m": 1.0, "1/cm": 1e2, "1/mm": 1e3, "rad/m": 1.0}, ("1/m",)
     ),
     "rate": Dimension("rate", "0.01 1/s", {"1/s": 1.0, "1/ms": 1e3, "1/min": 1 / 60.0}, ("1/s",)),
+    "rate_squared": Dimension(
+        "squared rate", "1 1/s^2", {"1/s^2": 1.0, "rad^2/s^2": 1.0, "1/ms^2": 1e6}, ("1/s^2",)
+    ),
     "force": Dimension("force", "1 mN", {"N": 1.0, "mN": 1e-3, "uN": 1e-6, "nN": 1e-9}, ("mN",)),
     "dimensionless": Dimension("none", "0.5", {"": 1.0, "1": 1.0}, ("",)),
 }

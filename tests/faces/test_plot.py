@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import matplotlib as mpl
@@ -57,6 +58,29 @@ def test_planar_case_has_four_flat_panels() -> None:
 def test_helix_is_drawn_in_space() -> None:
     figure = plot.draw(made(info(helix())))
     assert sum(ax.name == "3d" for ax in figure.get_axes()) == 1
+
+
+def tree() -> RunInfo:
+    """A run in two branches that start as one."""
+    one, other = info(helix()), helix() * [1.0, 1.0, -1.0]
+    return replace(
+        one,
+        centreline=np.concatenate([one.centreline, other]),
+        lumen_radius=np.full(2 * len(other), 3e-3),
+        lumen_branch=np.repeat([0, 1], len(other)),
+    )
+
+
+def test_all_branches_are_drawn_each_without_what_is_inside_of_another() -> None:
+    data = made(tree(), 5)
+    parts = shapes.branches(data)
+    assert len(parts) == 2
+    wall = np.stack(shapes._outside(shapes._tube(parts[1]), parts[:1]), axis=-1)
+    hidden = np.isnan(wall).any(axis=(1, 2))
+    assert hidden[:5].all()
+    assert not hidden[len(wall) // 2 :].any()
+    (ax,) = (ax for ax in plot.draw(data).get_axes() if ax.name == "3d")
+    assert (ax.elev, ax.azim) != shapes.VIEW
 
 
 def test_title_tells_of_an_early_end() -> None:

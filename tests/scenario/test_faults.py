@@ -19,6 +19,10 @@ class Fault(NamedTuple):
     scenario: str = "half-circle"
 
 
+STABLE = ("navigate.method=stable",)
+SCHEDULE = "navigate.method=schedule"
+KNOT = "['1 mm', '0 mT', '1 mT', '0 mT']"
+
 FAULTS = (
     Fault(
         "negative radius",
@@ -224,13 +228,13 @@ FAULTS = (
         "unknown shape",
         ("lumen.shape=half_circle",),
         "Input lumen.shape must be one of 'straight', 'half-circle', 'sinusoid', 'helix', "
-        "'points'; received 'half_circle', did you mean 'half-circle'?",
+        "'tree', 'points'; received 'half_circle', did you mean 'half-circle'?",
     ),
     Fault(
         "shape that is no text",
         ("lumen.shape=3",),
         "Input lumen.shape must be one of 'straight', 'half-circle', 'sinusoid', 'helix', "
-        "'points'; received 3.",
+        "'tree', 'points'; received 3.",
     ),
     Fault(
         "unknown wall",
@@ -290,12 +294,189 @@ FAULTS = (
     Fault(
         "unknown navigator",
         ("navigate.method=magic",),
-        "Input navigate.method must be 'none'; received 'magic'.",
+        "Input navigate.method must be one of 'none', 'stable', 'schedule'; received 'magic'.",
+    ),
+    Fault(
+        "key of another way to steer",
+        (*STABLE, "navigate.file=x.csv"),
+        "Input navigate.file is not a key of [navigate] with method 'stable'; expected one of "
+        "'method', 'update_every', 'plan_every', 'tip_clearance', 'stability_margin', "
+        "'field_tolerance', 'max_field', 'max_field_rate'.",
+    ),
+    Fault(
+        "clearance for nobody who steers",
+        ("navigate.tip_clearance=0.5",),
+        "Input navigate.tip_clearance is not a key of [navigate] with method 'none'; expected one "
+        "of 'method'.",
+    ),
+    Fault(
+        "tip farther from the wall than the centreline",
+        (*STABLE, "navigate.tip_clearance=1.2"),
+        "Input navigate.tip_clearance must be from 0 to 1; received 1.2.",
+    ),
+    Fault(
+        "tip in the wall",
+        (*STABLE, "navigate.tip_clearance=-0.1"),
+        "Input navigate.tip_clearance must be from 0 to 1; received -0.1.",
+    ),
+    Fault(
+        "clearance as a length",
+        (*STABLE, "navigate.tip_clearance=1.5 mm"),
+        "Input navigate.tip_clearance must be a plain number from 0 to 1; received '1.5 mm'.",
+    ),
+    Fault(
+        "clearance that is no number",
+        (*STABLE, "navigate.tip_clearance=nan"),
+        "Input navigate.tip_clearance must be from 0 to 1; received nan.",
+    ),
+    Fault(
+        "no margin of stability",
+        (*STABLE, "navigate.stability_margin=0 1/s^2"),
+        "Input navigate.stability_margin must be positive; received 0 1/s^2.",
+    ),
+    Fault(
+        "margin of stability as a rate",
+        (*STABLE, "navigate.stability_margin=1 1/s"),
+        "Input navigate.stability_margin needs a unit of squared rate such as '1 1/s^2'; received "
+        "'1 1/s', which is a rate.",
+    ),
+    Fault(
+        "field that may be off by all of it",
+        (*STABLE, "navigate.field_tolerance=1"),
+        "Input navigate.field_tolerance must be from 0 to 0.5; received 1.",
+    ),
+    Fault(
+        "no field allowed",
+        (*STABLE, "navigate.max_field=0 mT"),
+        "Input navigate.max_field must be positive; received 0 mT.",
+    ),
+    Fault(
+        "field rate per time",
+        (*STABLE, "navigate.max_field_rate=5 mT"),
+        "Input navigate.max_field_rate needs a unit of flux gradient such as '0.5 T/m'; received "
+        "'5 mT', which is a flux density.",
+    ),
+    Fault(
+        "never an update",
+        (*STABLE, "navigate.update_every=0 mm"),
+        "Input navigate.update_every must be positive; received 0 mm.",
+    ),
+    Fault(
+        "nothing to steer by",
+        (*STABLE, "wire.magnetization=0 kA/m"),
+        "Input wire.magnetization must have a magnetisation for navigate.method 'stable'; "
+        "received none.",
+    ),
+    Fault(
+        "steering in another field",
+        (*STABLE, "field.flux_density=['0 mT', '1 mT', '0 mT']"),
+        "Input field.flux_density must be zero for navigate.method 'stable', which knows of no "
+        "field but its own; received 0 mT, 1 mT, 0 mT.",
+    ),
+    Fault(
+        "schedule without a file",
+        (SCHEDULE,),
+        "Input navigate.file is missing; expected a schedule as CSV file or a result file.",
+    ),
+    Fault(
+        "schedule file that is not there",
+        (SCHEDULE, "navigate.file=none.csv"),
+        "Input navigate.file 'none.csv' cannot be read: no such file or directory.",
+    ),
+    Fault(
+        "schedule from a result that is not there",
+        (SCHEDULE, "navigate.file=none.nc"),
+        "Input navigate.file 'none.nc' does not exist.",
+    ),
+    Fault(
+        "schedule file that is no name",
+        (SCHEDULE, "navigate.file=3"),
+        "Input navigate.file must be the name of a file; received 3.",
+    ),
+    Fault(
+        "schedule and file",
+        (SCHEDULE, "navigate.file=x.csv", "navigate.table=[]"),
+        "Input navigate.table cannot stand next to navigate.file; remove one of them.",
+    ),
+    Fault(
+        "schedule that goes back",
+        (SCHEDULE, f"navigate.table=[{KNOT}, {KNOT}]"),
+        "Input navigate.table must have feeds that increase; received 1 mm after 1 mm.",
+    ),
+    Fault(
+        "schedule of two components",
+        (SCHEDULE, "navigate.table=[['1 mm', '0 mT', '1 mT']]"),
+        "Input navigate.table (row 1) must have 4 entries; received 3.",
     ),
     Fault(
         "recording interval of zero",
         ("output.record_every=0 mm",),
         "Input output.record_every must be positive; received 0 mm.",
+    ),
+    Fault(
+        "unknown outlet",
+        ("lumen.target=lfet",),
+        "Input lumen.target must be one of the outlets 'left', 'middle', 'right'; received 'lfet'.",
+        "left-branch",
+    ),
+    Fault(
+        "arc lengths that go back",
+        (
+            "lumen.branches.left=[['0 mm','0 1/m','0 1/m'],['9 mm','0 1/m','0 1/m'],"
+            "['8 mm','0 1/m','0 1/m']]",
+        ),
+        "Input lumen.branches.left must have arc lengths that start at 0 mm and increase; "
+        "received 0 mm, 9 mm, 8 mm.",
+        "left-branch",
+    ),
+    Fault(
+        "unit of a bend",
+        ("lumen.branches.left=[['0 mm','0 1/m','0 1/m'],['80 mm','5 mm','0 1/m']]",),
+        "Input lumen.branches.left (row 2) needs a unit of curvature such as '10 1/m'; "
+        "received '5 mm', which is a length.",
+        "left-branch",
+    ),
+    Fault(
+        "branch that is no table",
+        ("lumen.branches.left=ahead",),
+        "Input lumen.branches.left must be a list of rows, each a list such as ['5 mm', '10 1/m', "
+        "'10 1/m']; received 'ahead'.",
+        "left-branch",
+    ),
+    Fault(
+        "branches that are no table",
+        ("lumen.branches=3",),
+        "Input lumen.branches must be a table; received 3.",
+        "left-branch",
+    ),
+    Fault(
+        "tree without a branch",
+        ("lumen.branches={}",),
+        "Input lumen.branches must have at least one branch; received none.",
+        "left-branch",
+    ),
+    Fault(
+        "branch that never leaves",
+        (
+            "lumen.branches.left=[['0 mm','0 1/m','0 1/m'],['76 mm','0 1/m','0 1/m']]",
+            "lumen.branches.right=[['0 mm','0 1/m','0 1/m'],['75 mm','0 1/m','0 1/m']]",
+        ),
+        "Input lumen.branches must leave those before them, no wider than them, and end clear of "
+        "all others; 'right' runs along 'left' to its end.",
+        "left-branch",
+    ),
+    Fault(
+        "branch sharper than its radius",
+        ("lumen.radius=16 mm",),
+        "Input lumen must bend with a radius larger than lumen.radius, 16 mm; received a bend "
+        "radius of 14.2393 mm.",
+        "left-branch",
+    ),
+    Fault(
+        "feed longer than the way to the target",
+        ("feed.distance=77 mm",),
+        "Input feed.distance must be at most the length of the lumen, 76 mm; received 77 mm.",
+        "left-branch",
     ),
     Fault(
         "override without a value",
@@ -318,7 +499,8 @@ FAULTS = (
         "unknown name",
         (),
         "There is no scenario 'xyz'; expected one of 'half-circle', 'half-circle-narrow', "
-        "'half-circle-wide', 'helix', 'sinusoid', 'straight'.",
+        "'half-circle-wide', 'helix', 'left-branch', 'middle-branch', 'right-branch', 'sinusoid', "
+        "'straight'.",
         "xyz",
     ),
 )
@@ -387,7 +569,7 @@ FILES = {
     "no shape": (
         WIRE + '[lumen]\nlength = "1 m"\n' + FEED,
         "Input lumen.shape is missing; expected one of 'straight', 'half-circle', 'sinusoid', "
-        "'helix', 'points'.",
+        "'helix', 'tree', 'points'.",
     ),
     "no radius": (
         WIRE.replace('radius = "0.6 mm"\n', "") + TUBE + FEED,

@@ -16,9 +16,13 @@ LIBRARY = (
     "half-circle-narrow",
     "half-circle-wide",
     "helix",
+    "left-branch",
+    "middle-branch",
+    "right-branch",
     "sinusoid",
     "straight",
 )
+BRANCHES = ("left", "middle", "right")
 
 
 def test_library_is_complete() -> None:
@@ -55,6 +59,56 @@ def test_library_has_the_papers_wire(name: str) -> None:
 def test_half_circles_have_the_papers_widths(name: str, ratio: float) -> None:
     scenario = load(name)
     assert 2.0 * scenario.lumen.radius / scenario.wire.length == pytest.approx(ratio)
+
+
+@pytest.mark.parametrize("target", BRANCHES)
+def test_branches_are_one_tree_with_three_targets(target: str) -> None:
+    """Trunk of 0.25 L, junctions at 0.25 L and 0.40 L, outlets at 0.76 L, bends in space."""
+    scenario = load(f"{target}-branch")
+    assert scenario.lumen.branches == load("left-branch").lumen.branches
+    assert 2.0 * scenario.lumen.radius / scenario.wire.length == pytest.approx(0.06)
+    tree = scenario.lumen.build()
+    assert tree.outlets == BRANCHES
+    assert tree.target == target
+    np.testing.assert_array_equal(tree.direction, [1.0, 0.0, 0.0])
+    s = np.linspace(0.0, 0.076, 761)
+    ways = {name: tree.path(name).branches[0].curve.at(s)[:, :3] for name in BRANCHES}
+    for name in BRANCHES:
+        assert tree.path(name).length == pytest.approx(0.076)
+        assert tree.path(name).bend_radius()[0].radius > 0.012
+        np.testing.assert_allclose(ways[name][:251, 1:], 0.0, atol=2e-6)
+        assert np.all(np.ptp(ways[name], axis=0) > 0.004)
+    for one, other, junction in (("left", "right", 0.025), ("middle", "right", 0.04)):
+        apart = np.linalg.norm(ways[one][:, None] - ways[other], axis=2).min(axis=1)
+        assert apart[s < junction].max() < 2e-6
+        assert apart[s > junction + 0.015].min() > 2.0 * scenario.lumen.radius
+
+
+def test_passive_wire_enters_the_middle_branch() -> None:
+    result = load("right-branch", ["output.record_every=2 mm"]).run()
+    assert result.status == "complete"
+    assert float(result.dataset["feed"][-1]) == pytest.approx(0.072)
+    tip = result.dataset["position"].values[-1, -1]
+    tree = load("right-branch").lumen.build()
+    assert tree.outlets[tree.locate(tip[None])[1][0]] == "middle"
+    assert 0.0 < result.dataset.attrs["smallest_clearance"] < 1e-4
+    branches = np.unique(result.dataset["lumen_branch"].values)
+    np.testing.assert_array_equal(branches, [0, 1, 2])
+
+
+@pytest.mark.parametrize(
+    ("field", "outlet"),
+    [(("0 mT", "4 mT", "1.5 mT"), "left"), (("0 mT", "-3 mT", "5 mT"), "right")],
+)
+def test_a_steady_field_leads_across_the_junctions(field: tuple[str, ...], outlet: str) -> None:
+    """The tip slides over the start of another branch; that must not stop the solver."""
+    keys = [f"field.flux_density={list(field)}", "output.record_every=2 mm"]
+    result = load(f"{outlet}-branch", keys).run()
+    assert result.status == "complete"
+    assert result.dataset.attrs["retries_total"] == 0
+    tip = result.dataset["position"].values[-1, -1]
+    tree = load(f"{outlet}-branch").lumen.build()
+    assert tree.outlets[tree.locate(tip[None])[1][0]] == outlet
 
 
 @pytest.mark.parametrize("name", LIBRARY)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+from numpy.typing import NDArray
 
 from magwire.plot import style
 
@@ -13,33 +14,34 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
 
+Array = NDArray[np.float64]
 PUSH_LABEL = r"normalised push  $\mathcal{X}$"
 
 
-def draw_force(ax: Axes, data: xr.Dataset) -> None:
-    """Normalised tip force against normalised push, with millinewtons on the right."""
-    push, force = data["normalized_push"].values, data["normalized_tip_force"].values
-    ax.fill_between(push, force, color=style.FORCE, alpha=0.12, linewidth=0.0)
-    ax.plot(push, force, color=style.FORCE)
-    top = float(np.nanmax(force, initial=0.0))
-    ax.set_ylim(0.0, 1.22 * top if top > 0.0 else 1.0)
+def draw_force(ax: Axes, data: xr.Dataset, passive: xr.Dataset | None = None) -> None:
+    """Normalised tip force against normalised push, with millinewtons on the right.
+
+    Next to a run that nobody steered, both have a name.
+    """
+    runs = [(data, style.FORCE, "" if passive is None else "steered")]
+    if passive is not None:
+        runs.append((passive, style.PASSIVE, "not steered"))
+    tops = [float(np.nanmax(run["normalized_tip_force"].values, initial=0.0)) for run, _, _ in runs]
+    for k, ((run, colour, name), top) in enumerate(zip(runs, tops, strict=True)):
+        push, force = run["normalized_push"].values, run["normalized_tip_force"].values
+        ax.fill_between(push, force, color=colour, alpha=0.12, linewidth=0.0)
+        ax.plot(push, force, color=colour, label=name, zorder=3 - 0.1 * k, clip_on=False)
+        if top > 0.0:
+            _peak(ax, push, force, colour)
+    top = max(tops)
+    room = 1.22 if passive is None else 1.45  # on top, for the legend
+    ax.set_ylim(0.0, room * top if top > 0.0 else 1.0)
     ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 5, 10]))
     ax.set_ylabel(r"tip force  $\mathcal{F}$")
     _second_axis(ax, 1e3 * float(data.attrs["force_scale"]), "[mN]")
-    if top > 0.0:
-        peak = int(np.nanargmax(force))
-        ax.plot(push[peak], top, "o", color=style.FORCE, markersize=3.2, mec="white", mew=0.5)
-        side = "right" if push[peak] > 0.6 * push.max() else "left"
-        ax.annotate(
-            f"peak {top:.1f}",
-            (push[peak], top),
-            xytext=(0, 3.5),
-            textcoords="offset points",
-            ha=side,
-            fontsize=6.5,
-            color=style.FORCE,
-        )
-    else:
+    if passive is not None:
+        ax.legend(loc="upper left", ncols=2, borderaxespad=0.1, columnspacing=1.2)
+    if top == 0.0:
         _note(ax, "the tip never touches the wall")
 
 
@@ -95,6 +97,21 @@ def draw_clearance(ax: Axes, data: xr.Dataset) -> None:
     ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     ax.yaxis.set_minor_formatter(NullFormatter())
     ax.legend(loc="upper right", ncols=2, borderaxespad=0.1, columnspacing=1.2)
+
+
+def _peak(ax: Axes, push: Array, force: Array, colour: str) -> None:
+    """A dot and a number where a force is largest."""
+    peak = int(np.nanargmax(force))
+    ax.plot(push[peak], force[peak], "o", color=colour, markersize=3.2, mec="white", mew=0.5)
+    ax.annotate(
+        f"peak {force[peak]:.1f}",
+        (push[peak], force[peak]),
+        xytext=(0, 3.5),
+        textcoords="offset points",
+        ha="right" if push[peak] > 0.6 * push.max() else "left",
+        fontsize=6.5,
+        color=colour,
+    )
 
 
 def _second_axis(ax: Axes, factor: float, label: str, *, inverse: bool = False) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
@@ -26,13 +27,15 @@ COLUMN, AROUND, BELOW = 82.0, 33.0, 46.0
 FORMATS = ("png", "svg")
 
 
-def draw(data: xr.Dataset) -> Figure:
+def draw(data: xr.Dataset, passive: xr.Dataset | None = None) -> Figure:
     """Draw a result.
 
     Parameters
     ----------
     data
         A result file's variables and attributes.
+    passive
+        The same of a run that nobody steered, for its tip force next to that of ``data``.
 
     Returns
     -------
@@ -58,10 +61,11 @@ def draw(data: xr.Dataset) -> Figure:
             field.set_xlabel(curves.PUSH_LABEL)
             force, clearance = right.subplots(2, 1, sharex=True)
         _draw_shapes(shape, data)
-        curves.draw_force(force, data)
+        curves.draw_force(force, data, passive)
         curves.draw_field(field, data)
         curves.draw_clearance(clearance, data)
-        push = data["normalized_push"].values
+        runs = [data] if passive is None else [data, passive]
+        push = np.concatenate([run["normalized_push"].values for run in runs])
         for letter, panel in zip("bcd", (force, field, clearance), strict=True):
             panel.set_title(letter, loc="left", fontweight="bold", pad=3.0)
             panel.xaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
@@ -71,7 +75,13 @@ def draw(data: xr.Dataset) -> Figure:
     return figure
 
 
-def save(data: xr.Dataset, folder: str | Path, name: str = "figure") -> list[Path]:
+def save(
+    data: xr.Dataset,
+    folder: str | Path,
+    name: str = "figure",
+    *,
+    passive: xr.Dataset | None = None,
+) -> list[Path]:
     """Draw a result and write it as PNG and SVG.
 
     Parameters
@@ -82,13 +92,15 @@ def save(data: xr.Dataset, folder: str | Path, name: str = "figure") -> list[Pat
         Where to.
     name
         Name of the files without suffix.
+    passive
+        A run that nobody steered, for comparison.
 
     Returns
     -------
     list
         The files.
     """
-    figure = draw(data)
+    figure = draw(data, passive)
     paths = [Path(folder) / f"{name}.{suffix}" for suffix in FORMATS]
     with mpl.rc_context(style.RC):
         for path in paths:

@@ -18,6 +18,7 @@ GRID = "#e3e8ec"
 LUMEN_FILL = "#eceff2"
 LUMEN_EDGE = "#9aa7b2"
 FORCE = "#d55e00"
+PASSIVE = "#56b4e9"
 CLEARANCE = "#0072b2"
 TIP = "#e69f00"
 COMPONENTS = ("#0072b2", "#d55e00", "#009e73")

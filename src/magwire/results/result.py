@@ -98,7 +98,10 @@ class Result:
 
     @property
     def status(self) -> str:
-        """How it ended: "complete", "not converged", "interrupted", "failed"; else "running"."""
+        """How it ended, or "running".
+
+        "complete", "not converged", "no field", "interrupted" or "failed".
+        """
         return str(self.dataset.attrs["status"])
 
     @property
@@ -150,6 +153,11 @@ class Result:
     def contact_free(self) -> bool:
         """Whether the tip never felt the wall in any step; the body of the wire may have."""
         return self.max_tip_force == 0.0
+
+    @property
+    def largest_tip_offset(self) -> float:
+        """Largest distance of the tip from the centreline over all records [m]."""
+        return float(np.max(self.tip_offset, initial=0.0))
 
     @property
     def peak_field(self) -> float:

@@ -8,8 +8,9 @@ import re
 from collections.abc import Callable, Iterator
 
 from magwire.errors import InputError
-from magwire.scenario.lumens import PointsLumen
+from magwire.scenario.lumens import PointsLumen, TreeLumen
 from magwire.scenario.model import Scenario
+from magwire.scenario.navigators import ScheduledSteering, StableSteering
 from magwire.scenario.tables import (
     ConstantFeed,
     SectionedWire,
@@ -112,12 +113,30 @@ def radii(scenario: Scenario) -> Faults:
         )
 
 
+def outlets(scenario: Scenario) -> Faults:
+    """The arc lengths of a tree's branches start at zero and grow; the target is one of them."""
+    lumen = scenario.lumen
+    if not isinstance(lumen, TreeLumen):
+        return
+    for name, rows in lumen.branches.items():
+        arcs = [row[0] for row in rows]
+        if arcs[0] != 0.0 or any(b <= a for a, b in itertools.pairwise(arcs)):
+            yield (
+                f"Input lumen.branches.{name} must have arc lengths that start at 0 mm and "
+                f"increase; received {', '.join(show(arc, 'length') for arc in arcs)}."
+            )
+    if lumen.target not in lumen.branches:
+        words = ", ".join(f"'{name}'" for name in lumen.branches)
+        yield f"Input lumen.target must be one of the outlets {words}; received {lumen.target!r}."
+
+
 def bends(scenario: Scenario) -> Faults:
     """The lumen's centreline bends more gently than the lumen is wide."""
     lumen = scenario.lumen
+    if any(radii(scenario)) or any(outlets(scenario)):
+        return
     if isinstance(lumen, PointsLumen):
-        if not any(radii(scenario)):
-            yield from refusals(lumen.build)
+        yield from refusals(lumen.build)
     elif lumen.tightest_bend <= lumen.radius:
         yield (
             "Input lumen must bend with a radius larger than lumen.radius, "
@@ -140,7 +159,7 @@ def feed_within_wire(scenario: Scenario) -> Faults:
 
 def feed_within_lumen(scenario: Scenario) -> Faults:
     """The wire does not come out at the far end."""
-    if any(radii(scenario)) or any(bends(scenario)):
+    if any(any(check(scenario)) for check in (radii, outlets, bends)):
         return
     fed, length = _farthest(scenario), scenario.lumen.build().length
     if fed > length * (1.0 + SLACK):
@@ -206,6 +225,51 @@ def sources(scenario: Scenario) -> Faults:
         )
 
 
+def schedule(scenario: Scenario) -> Faults:
+    """The feeds of a schedule grow."""
+    navigate = scenario.navigate
+    if not isinstance(navigate, ScheduledSteering):
+        return
+    for before, after in itertools.pairwise(row[0] for row in navigate.table):
+        if after <= before:
+            yield (
+                "Input navigate.table must have feeds that increase; received "
+                f"{show(after, 'length')} after {show(before, 'length')}."
+            )
+            return
+
+
+def magnet_to_steer(scenario: Scenario) -> Faults:
+    """A wire that is steered has a magnet."""
+    if not isinstance(scenario.navigate, StableSteering):
+        return
+    wire = scenario.wire
+    sections = (wire,) if isinstance(wire, UniformWire) else wire.sections
+    if not any(any(section.magnetization) for section in sections):
+        key = "magnetization" if isinstance(wire, UniformWire) else "sections"
+        yield (
+            f"Input wire.{key} must have a magnetisation for navigate.method 'stable'; "
+            "received none."
+        )
+
+
+def field_to_steer(scenario: Scenario) -> Faults:
+    """The navigator's model knows of no field but its own."""
+    if not isinstance(scenario.navigate, StableSteering):
+        return
+    source = scenario.field
+    if not isinstance(source, UniformFieldTable):
+        yield (
+            "Input field.kind must be 'uniform' for navigate.method 'stable'; received 'gradient'."
+        )
+    elif any(source.flux_density):
+        given = ", ".join(show(component, "flux_density") for component in source.flux_density)
+        yield (
+            "Input field.flux_density must be zero for navigate.method 'stable', which knows of "
+            f"no field but its own; received {given}."
+        )
+
+
 def refusals(build: Callable[[], object]) -> Faults:
     """What a model refuses, in the scenario's words."""
     try:
@@ -223,6 +287,9 @@ _TABLES = {
     "GradientField": "field",
     "Barrier": "contact",
     "Feed": "feed",
+    "Demands": "navigate",
+    "StableNavigator": "navigate",
+    "Schedule": "navigate",
     "Simulation": "solver",
 }
 _OWNER = re.compile(rf"^Input (\w+) of ({'|'.join(_TABLES)})(?:\.\w+)?\b")
@@ -234,12 +301,16 @@ CHECKS: tuple[Callable[[Scenario], Faults], ...] = (
     wire_fits,
     activation_gap,
     radii,
+    outlets,
     bends,
     feed_table,
     feed_within_wire,
     feed_within_lumen,
     time_step,
     sources,
+    schedule,
+    magnet_to_steer,
+    field_to_steer,
 )
 
 

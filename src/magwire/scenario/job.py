@@ -69,6 +69,9 @@ class Job:
             feed = scenario.feed.build()
         except InputError as error:
             raise ScenarioError(str(error)) from error
+        faults = list(refusals(lambda: scenario.navigate.build(simulation)))
+        if faults:
+            raise ScenarioError(faults)
         return cls(
             scenario=scenario,
             simulation=simulation,
@@ -89,8 +92,11 @@ class Job:
         watch
             Called with every record.
         """
+        navigate = self.scenario.navigate
         return self.simulation.run(
             self.feed,
+            navigate.build(self.simulation),
+            update_every=navigate.interval,
             time_step=self.time_step,
             record_every=self.record_every,
             out=out,

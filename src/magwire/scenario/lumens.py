@@ -3,12 +3,22 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Literal
+from functools import cached_property
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
-from magwire.scenario.quantity import Length, LengthOrZero, OneOrEach, Quantity, Row, Rows, Whole
+from magwire.scenario.quantity import (
+    Length,
+    LengthOrZero,
+    OneOrEach,
+    Quantity,
+    Row,
+    Rows,
+    Whole,
+    fault,
+)
 from magwire.scenario.tables import Table, preset
 
 if TYPE_CHECKING:
@@ -18,7 +28,20 @@ Points = Annotated[int, Whole(5, 1_000_000)]
 Polyline = Annotated[
     tuple[tuple[float, float, float], ...], Rows(Row((Quantity("length"),) * 3), least=2)
 ]
+Bends = Annotated[
+    tuple[tuple[float, float, float], ...],
+    Rows(
+        Row((Quantity("length", "nonnegative"), Quantity("curvature"), Quantity("curvature"))),
+        least=2,
+    ),
+]
 Radii = Annotated[tuple[float, ...], OneOrEach(Quantity("length", "positive"))]
+
+
+def _some(value: Any) -> Any:
+    if value == {}:
+        raise fault("must have at least one branch; received none")
+    return value
 
 
 class LumenTable(Table):
@@ -139,6 +162,41 @@ class HelixLumen(RoundLumen):
         return Lumen.helix(
             self.helix_radius, self.pitch, self.length, self.radius, points=self.points
         )
+
+
+class TreeLumen(RoundLumen):
+    """A tree of tubes that all start at the origin along x, by the names of their outlets.
+
+    Each row of a branch is an arc length s and the curvatures k1, k2 there, linear between rows:
+    the centreline is c' = t, t' = k1 m1 + k2 m2, m1' = -k1 t, m2' = -k2 t from c = 0, t = x,
+    m1 = y, m2 = z. Branches with the same rows up to some s share their way up to there.
+    """
+
+    shape: Literal["tree"]
+    target: str
+    branches: Annotated[dict[str, Bends], BeforeValidator(_some)]
+    points: Points = preset(200)
+
+    @property
+    def tightest_bend(self) -> float:
+        """Smallest bend radius of the centrelines [m]."""
+        rows = [row for branch in self.branches.values() for row in branch]
+        sharpest = max(math.hypot(k1, k2) for _, k1, k2 in rows)
+        return 1.0 / sharpest if sharpest > 0.0 else math.inf
+
+    def shape_model(self) -> Lumen:
+        """The lumen as a model, without its entry."""
+        return self._model
+
+    @cached_property
+    def _model(self) -> Lumen:
+        from magwire.lumen import Lumen
+
+        tubes = {
+            name: Lumen.bends(rows, self.radius, points=self.points)
+            for name, rows in self.branches.items()
+        }
+        return Lumen.tree(tubes, target=self.target)
 
 
 class PointsLumen(LumenTable):

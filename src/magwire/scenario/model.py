@@ -13,13 +13,14 @@ from magwire.scenario.lumens import (
     PointsLumen,
     SinusoidLumen,
     StraightLumen,
+    TreeLumen,
 )
+from magwire.scenario.navigators import NoSteering, ScheduledSteering, StableSteering
 from magwire.scenario.tables import (
     ConstantFeed,
     ContactTable,
     EnvironmentTable,
     GradientFieldTable,
-    NavigateTable,
     OutputTable,
     SectionedWire,
     SolverTable,
@@ -57,7 +58,7 @@ Wire = Annotated[
     Discriminator(_which_wire),
 ]
 Lumen = Annotated[
-    StraightLumen | HalfCircleLumen | SinusoidLumen | HelixLumen | PointsLumen,
+    StraightLumen | HalfCircleLumen | SinusoidLumen | HelixLumen | TreeLumen | PointsLumen,
     Field(discriminator="shape"),
 ]
 FieldOfTheMagnet = Annotated[UniformFieldTable | GradientFieldTable, Field(discriminator="kind")]
@@ -65,6 +66,7 @@ Feed = Annotated[
     Annotated[ConstantFeed, Tag("constant")] | Annotated[TabledFeed, Tag("table")],
     Discriminator(_which_feed),
 ]
+Navigate = Annotated[NoSteering | StableSteering | ScheduledSteering, Field(discriminator="method")]
 
 CHOICES: dict[str, tuple[str, dict[str, type[Table]]]] = {
     "wire": ("", {"uniform": UniformWire, "sections": SectionedWire}),
@@ -75,11 +77,16 @@ CHOICES: dict[str, tuple[str, dict[str, type[Table]]]] = {
             "half-circle": HalfCircleLumen,
             "sinusoid": SinusoidLumen,
             "helix": HelixLumen,
+            "tree": TreeLumen,
             "points": PointsLumen,
         },
     ),
     "field": ("kind", {"uniform": UniformFieldTable, "gradient": GradientFieldTable}),
     "feed": ("", {"constant": ConstantFeed, "table": TabledFeed}),
+    "navigate": (
+        "method",
+        {"none": NoSteering, "stable": StableSteering, "schedule": ScheduledSteering},
+    ),
 }
 """Tables that come in several makes: the key that tells which ("" if the others tell)."""
 
@@ -98,7 +105,7 @@ class Scenario(Table):
     field: FieldOfTheMagnet = Field(default={"kind": "uniform"})  # type: ignore[assignment]
     contact: ContactTable = Field(default={})  # type: ignore[assignment]
     feed: Feed
-    navigate: NavigateTable = Field(default={})  # type: ignore[assignment]
+    navigate: Navigate = Field(default={"method": "none"})  # type: ignore[assignment]
     solver: SolverTable = Field(default={})  # type: ignore[assignment]
     environment: EnvironmentTable = Field(default={})  # type: ignore[assignment]
     output: OutputTable = Field(default={})  # type: ignore[assignment]
@@ -110,6 +117,10 @@ class Scenario(Table):
             if selector:  # what a table is comes first in it
                 tables[name] = {selector: tables[name][selector], **tables[name]}
         return tomli_w.dumps(tables)
+
+    def unsteered(self) -> Scenario:
+        """The same scenario with nobody steering."""
+        return self.model_copy(update={"navigate": NoSteering(method="none")})
 
     def build(self) -> Job:
         """The simulation, the feed and the settings of the run.

@@ -17,6 +17,8 @@ def apply(raw: dict[str, Any], overrides: Sequence[str]) -> list[str]:
     overrides
         ``key=value`` each; the key with dots and, in lists, numbers from zero
         (``wire.sections.0.radius``); the value as in TOML, where a quantity needs no quotes.
+        Another ``navigate.method`` than the scenario's starts that table anew, since the keys of
+        one method are faults in another.
 
     Returns
     -------
@@ -24,6 +26,7 @@ def apply(raw: dict[str, Any], overrides: Sequence[str]) -> list[str]:
         One sentence for each override that could not be set.
     """
     faults = []
+    _restart(raw, overrides)
     for text in overrides:
         key, equals, value = text.partition("=")
         path = [part.strip() for part in key.split(".")]
@@ -32,6 +35,16 @@ def apply(raw: dict[str, Any], overrides: Sequence[str]) -> list[str]:
         elif not _put(raw, path, _value(value.strip())):
             faults.append(f"Override {text!r} sets a key inside something that is no table.")
     return faults
+
+
+def _restart(raw: dict[str, Any], overrides: Sequence[str]) -> None:
+    """Forget how a scenario is steered if an override says that it is steered in another way."""
+    table = raw.get("navigate")
+    for text in overrides:
+        key, _, value = text.partition("=")
+        method = [part.strip() for part in key.split(".")] == ["navigate", "method"]
+        if method and isinstance(table, dict) and table.get("method") != _value(value.strip()):
+            raw["navigate"] = {}
 
 
 def _value(text: str) -> Any:

@@ -257,6 +257,37 @@ class Whole:
         return {"type": "integer", "minimum": self.minimum, "maximum": self.maximum}
 
 
+@dataclass(frozen=True)
+class Share:
+    """A plain number, from ``low`` to ``high``."""
+
+    low: float
+    high: float
+
+    @property
+    def expected(self) -> str:
+        """What a well-formed value is, for messages."""
+        return f"a plain number from {self.low:g} to {self.high:g}"
+
+    def read(self, value: object) -> float:
+        """The number; raises the fault if it is none or out of range."""
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise fault(f"must be {self.expected}; received {received(value)}")
+        if not self.low <= value <= self.high:
+            raise fault(f"must be from {self.low:g} to {self.high:g}; received {value}")
+        return float(value)
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        return {"type": "number", "minimum": self.low, "maximum": self.high}
+
+
 def _core_schema(read: Callable[[Any], Any], write: Callable[[Any], Any]) -> CoreSchema:
     return core_schema.no_info_plain_validator_function(
         read, serialization=core_schema.plain_serializer_function_ser_schema(write)

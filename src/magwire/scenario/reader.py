@@ -18,6 +18,8 @@ from magwire.scenario.model import Scenario
 from magwire.scenario.overrides import apply
 from magwire.scenario.partial import partial_scenario
 from magwire.scenario.points import inline
+from magwire.scenario.schedules import inline as inline_schedule
+from magwire.scenario.schedules import needs_file
 
 
 def names() -> tuple[str, ...]:
@@ -79,7 +81,12 @@ def parse(
         raw["lumen"], more = inline(lumen, folder or Path())
         faults += more
         if more:
-            unread = {("lumen", "points"), ("lumen", "radius")}
+            unread |= {("lumen", "points"), ("lumen", "radius")}
+    navigate = raw.get("navigate")
+    if isinstance(navigate, dict) and needs_file(navigate):
+        raw["navigate"], more = inline_schedule(navigate, folder or Path())
+        faults += more
+        unread |= {("navigate", "table")} if more else set()
     return _validate(raw, faults, unread)
 
 

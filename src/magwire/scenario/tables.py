@@ -266,12 +266,6 @@ class TabledFeed(Table):
         )
 
 
-class NavigateTable(Table):
-    """Who steers."""
-
-    method: Literal["none"] = "none"
-
-
 class SolverTable(Table):
     """How the motion is computed."""
 

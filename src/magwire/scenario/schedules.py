@@ -1,0 +1,216 @@
+"""Field schedules in files: read from CSV or from a result, written as CSV."""
+
+from __future__ import annotations
+
+import csv
+import re
+import tomllib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import tomli_w
+
+from magwire.errors import InputError, MagwireError, finite, positive
+from magwire.navigate import Schedule
+
+if TYPE_CHECKING:
+    from magwire.results import Result
+    from magwire.scenario.model import Scenario
+
+HEADER = ("feed [m]", "Bx [T]", "By [T]", "Bz [T]")
+_FILE = re.compile(r"^(?:Schedule file|Result file|File|Folder) ")
+
+
+def read_schedule(path: str | Path) -> Schedule:
+    """A field schedule from a file.
+
+    Parameters
+    ----------
+    path
+        CSV file with the header ``feed [m],Bx [T],By [T],Bz [T]``; or a result file or the folder
+        that holds one, see ``schedule_of``.
+
+    Raises
+    ------
+    InputError
+        If the file is no schedule.
+    ResultError
+        If the result file is none.
+    """
+    path = Path(path)
+    if path.suffix == ".nc" or path.is_dir():
+        from magwire.results import Result
+
+        return schedule_of(Result.load(path))
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        reason = (error.strerror or "unknown reason").lower()
+        raise InputError(f"Schedule file '{path}' cannot be read: {reason}.") from None
+    except UnicodeDecodeError:
+        raise InputError(f"Schedule file '{path}' is not a text file.") from None
+    return _schedule(text, path)
+
+
+def write_schedule(schedule: Schedule, path: str | Path) -> Path:
+    """Write a field schedule as a CSV file that ``read_schedule`` reads back to the same numbers.
+
+    Parameters
+    ----------
+    schedule
+        The schedule.
+    path
+        File to write; an existing one is overwritten.
+    """
+    path = Path(path)
+    rows = np.column_stack([schedule.feed, schedule.flux_density]).tolist()
+    lines = [",".join(HEADER), *(",".join(map(repr, row)) for row in rows)]
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return path
+
+
+def schedule_of(result: Result) -> Schedule:
+    """The field that steered a run, at the feeds that were reached for the first time.
+
+    Parameters
+    ----------
+    result
+        A result. The field of its scenario, if it has one, is taken off the recorded field: that
+        is there anyway when the schedule is applied to the scenario.
+
+    Raises
+    ------
+    InputError
+        If the result has no records.
+    """
+    fed = result.feed
+    if fed.size == 0:
+        raise InputError("Input result of schedule_of must hold at least one record; received 0.")
+    first = np.append(True, fed[1:] > np.maximum.accumulate(fed)[:-1])
+    flux = result.field[first]
+    if result.scenario:
+        from magwire.scenario.reader import parse
+
+        own = parse(result.scenario, source="of the result").field.build()
+        flux = flux - own.at(result.position[first, -1])[0]
+    return Schedule(fed[first], flux)
+
+
+def replayed(
+    result: Result,
+    overrides: Sequence[str] = (),
+    *,
+    scale: float = 1.0,
+    resample: float | None = None,
+) -> Scenario:
+    """The scenario of a result, steered by the field that the result recorded.
+
+    Parameters
+    ----------
+    result
+        A result with a scenario.
+    overrides
+        Keys to set in the scenario, ``key=value`` each.
+    scale
+        Factor on the field.
+    resample
+        Feed between two values that are kept [m]; all are kept if left out.
+
+    Raises
+    ------
+    InputError
+        If the result has no records, or no scenario.
+    ScenarioError
+        If the scenario has faults.
+    """
+    from magwire.scenario.reader import parse
+
+    if not result.scenario:
+        raise InputError(
+            "Input result of replayed must have a scenario; received one of a run that was set up "
+            "in Python."
+        )
+    schedule = schedule_of(result).scaled(finite("replayed", "scale", scale))
+    if resample is not None:
+        schedule = schedule.resampled(positive("replayed", "resample", resample, "m"))
+    raw = tomllib.loads(result.scenario)
+    raw["navigate"] = {"method": "schedule", "table": rows_of(schedule)}
+    return parse(tomli_w.dumps(raw), overrides, source="of the result")
+
+
+def rows_of(schedule: Schedule) -> list[list[str]]:
+    """The schedule as rows of a scenario's ``navigate.table``."""
+    rows = np.column_stack([schedule.feed, schedule.flux_density]).tolist()
+    return [[f"{row[0]!r} m", *(f"{b!r} T" for b in row[1:])] for row in rows]
+
+
+def needs_file(navigate: dict[str, Any]) -> bool:
+    """Whether a navigate table as read asks for a file, or should."""
+    scheduled = navigate.get("method") == "schedule"
+    return scheduled and ("file" in navigate or "table" not in navigate)
+
+
+def inline(navigate: dict[str, Any], folder: Path) -> tuple[dict[str, Any], list[str]]:
+    """The navigate table of a schedule with the numbers of its file in it.
+
+    Parameters
+    ----------
+    navigate
+        The table as read, without the key ``table`` or with the key ``file``.
+    folder
+        What a relative file name starts from.
+
+    Returns
+    -------
+    tuple
+        The table with ``table`` in place of ``file``, and the faults found; with a fault, it has
+        neither.
+    """
+    rest = {key: value for key, value in navigate.items() if key not in ("file", "table")}
+    if "file" not in navigate:
+        fault = "Input navigate.file is missing; expected a schedule as CSV file or a result file."
+    elif "table" in navigate:
+        fault = "Input navigate.table cannot stand next to navigate.file; remove one of them."
+    elif not isinstance(navigate["file"], str):
+        fault = f"Input navigate.file must be the name of a file; received {navigate['file']!r}."
+    else:
+        try:
+            rest["table"] = rows_of(read_schedule(folder / navigate["file"]))
+        except MagwireError as error:
+            fault = _FILE.sub("Input navigate.file ", str(error), count=1)
+        else:
+            return rest, []
+    return rest, [fault]
+
+
+def _schedule(text: str, path: Path) -> Schedule:
+    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+    head, *rows = csv.reader(lines, skipinitialspace=True) if lines else [[]]
+    if tuple(word.strip() for word in head) != HEADER:
+        raise InputError(
+            f"Schedule file '{path}' must start with the header '{','.join(HEADER)}'; "
+            f"received '{','.join(head)}'."
+        )
+    if not rows:
+        raise InputError(f"Schedule file '{path}' must have at least one row; received none.")
+    table = np.empty((len(rows), len(HEADER)))
+    for number, row in enumerate(rows, start=1):
+        try:
+            table[number - 1] = [float(word) for word in row]
+        except ValueError:
+            table[number - 1] = np.nan
+        if not np.isfinite(table[number - 1]).all():
+            raise InputError(
+                f"Schedule file '{path}' must have {len(HEADER)} finite numbers in every row; "
+                f"received '{','.join(row)}' in row {number}."
+            )
+    rises = np.diff(table[:, 0]) > 0.0
+    if not rises.all():
+        number = int(np.argmin(rises))
+        raise InputError(
+            f"Schedule file '{path}' must have feeds that increase; received "
+            f"{table[number + 1, 0]:g} m after {table[number, 0]:g} m in row {number + 2}."
+        )
+    return Schedule(table[:, 0], table[:, 1:])
