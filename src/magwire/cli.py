@@ -256,8 +256,11 @@ def outcome(result: Result | None) -> int:
 
 def simulate(job: Job, file: Path) -> Result | None:
     """Run a job with a progress bar; None if it was interrupted before its first record."""
+    from magwire.kernels._jit import compiled_before
     from magwire.results import Result
 
+    if not compiled_before():
+        complain("Compiling for this machine; this happens once and takes about half a minute.")
     with progress(job.feed.duration) as show:
         try:
             return job.run(file, watch=show)

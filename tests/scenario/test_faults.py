@@ -294,7 +294,8 @@ FAULTS = (
     Fault(
         "unknown navigator",
         ("navigate.method=magic",),
-        "Input navigate.method must be one of 'none', 'stable', 'schedule'; received 'magic'.",
+        "Input navigate.method must be one of 'none', 'stable', 'newton', 'paper', 'schedule'; "
+        "received 'magic'.",
     ),
     Fault(
         "key of another way to steer",

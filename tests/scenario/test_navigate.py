@@ -9,6 +9,8 @@ import pytest
 
 from magwire.errors import InputError, ResultError, ScenarioError
 from magwire.navigate import Prescribed, Schedule
+from magwire.navigate.newton import NewtonNavigator
+from magwire.navigate.paper import Optimiser, PaperNavigator
 from magwire.navigate.stable import StableNavigator
 from magwire.results import Result
 from magwire.scenario import load, parse, read_schedule, schedule_of, write_schedule
@@ -206,3 +208,26 @@ def test_replay_needs_a_scenario_and_records() -> None:
     result.dataset.attrs["scenario"] = ""
     with pytest.raises(InputError, match="must have a scenario"):
         replayed(result)
+
+
+def test_the_virtual_tubes_navigators_get_their_numbers() -> None:
+    newton = load("half-circle", ["navigate.method=newton", "navigate.plan_every=0.3 mm"])
+    assert parse(newton.to_toml()) == newton
+    navigator = newton.navigate.build(newton.build().simulation)
+    assert isinstance(navigator, NewtonNavigator)
+    assert navigator.plan_every == 3e-4
+
+    keys = ["method=paper", "difference=0.2 mT", "beta1=0.8", "beta2=0.001", "iterations=7"]
+    paper = load("half-circle", [f"navigate.{key}" for key in keys])
+    assert parse(paper.to_toml()) == paper
+    baseline = paper.navigate.build(paper.build().simulation)
+    assert isinstance(baseline, PaperNavigator)
+    assert baseline.optimiser == Optimiser(2e-4, 0.8, 1e-3, 0.05, 7)
+
+
+def test_a_run_with_the_virtual_tube_in_the_navigators_model_only() -> None:
+    short = ["feed.distance=30 mm", "solver.time_step=100 ms", "navigate.method=newton"]
+    result = load("half-circle", short).run()
+    assert result.status == "complete"
+    assert result.max_tip_force == 0.0
+    assert result.largest_tip_offset < 0.1 * 3e-3

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from magwire.errors import InputError
 from magwire.scenario.lumens import PointsLumen, TreeLumen
 from magwire.scenario.model import Scenario
-from magwire.scenario.navigators import ScheduledSteering, StableSteering
+from magwire.scenario.navigators import ModelSteering, ScheduledSteering
 from magwire.scenario.tables import (
     ConstantFeed,
     SectionedWire,
@@ -241,31 +241,32 @@ def schedule(scenario: Scenario) -> Faults:
 
 def magnet_to_steer(scenario: Scenario) -> Faults:
     """A wire that is steered has a magnet."""
-    if not isinstance(scenario.navigate, StableSteering):
+    if not isinstance(scenario.navigate, ModelSteering):
         return
     wire = scenario.wire
     sections = (wire,) if isinstance(wire, UniformWire) else wire.sections
     if not any(any(section.magnetization) for section in sections):
         key = "magnetization" if isinstance(wire, UniformWire) else "sections"
         yield (
-            f"Input wire.{key} must have a magnetisation for navigate.method 'stable'; "
-            "received none."
+            f"Input wire.{key} must have a magnetisation for navigate.method "
+            f"'{scenario.navigate.method}'; received none."
         )
 
 
 def field_to_steer(scenario: Scenario) -> Faults:
     """The navigator's model knows of no field but its own."""
-    if not isinstance(scenario.navigate, StableSteering):
+    if not isinstance(scenario.navigate, ModelSteering):
         return
-    source = scenario.field
+    source, method = scenario.field, scenario.navigate.method
     if not isinstance(source, UniformFieldTable):
         yield (
-            "Input field.kind must be 'uniform' for navigate.method 'stable'; received 'gradient'."
+            f"Input field.kind must be 'uniform' for navigate.method '{method}'; "
+            "received 'gradient'."
         )
     elif any(source.flux_density):
         given = ", ".join(show(component, "flux_density") for component in source.flux_density)
         yield (
-            "Input field.flux_density must be zero for navigate.method 'stable', which knows of "
+            f"Input field.flux_density must be zero for navigate.method '{method}', which knows of "
             f"no field but its own; received {given}."
         )
 

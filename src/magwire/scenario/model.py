@@ -15,7 +15,13 @@ from magwire.scenario.lumens import (
     StraightLumen,
     TreeLumen,
 )
-from magwire.scenario.navigators import NoSteering, ScheduledSteering, StableSteering
+from magwire.scenario.navigators import (
+    NewtonSteering,
+    NoSteering,
+    PaperSteering,
+    ScheduledSteering,
+    StableSteering,
+)
 from magwire.scenario.tables import (
     ConstantFeed,
     ContactTable,
@@ -66,7 +72,10 @@ Feed = Annotated[
     Annotated[ConstantFeed, Tag("constant")] | Annotated[TabledFeed, Tag("table")],
     Discriminator(_which_feed),
 ]
-Navigate = Annotated[NoSteering | StableSteering | ScheduledSteering, Field(discriminator="method")]
+Navigate = Annotated[
+    NoSteering | StableSteering | NewtonSteering | PaperSteering | ScheduledSteering,
+    Field(discriminator="method"),
+]
 
 CHOICES: dict[str, tuple[str, dict[str, type[Table]]]] = {
     "wire": ("", {"uniform": UniformWire, "sections": SectionedWire}),
@@ -85,7 +94,13 @@ CHOICES: dict[str, tuple[str, dict[str, type[Table]]]] = {
     "feed": ("", {"constant": ConstantFeed, "table": TabledFeed}),
     "navigate": (
         "method",
-        {"none": NoSteering, "stable": StableSteering, "schedule": ScheduledSteering},
+        {
+            "none": NoSteering,
+            "stable": StableSteering,
+            "newton": NewtonSteering,
+            "paper": PaperSteering,
+            "schedule": ScheduledSteering,
+        },
     ),
 }
 """Tables that come in several makes: the key that tells which ("" if the others tell)."""

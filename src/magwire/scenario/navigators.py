@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from magwire.scenario.quantity import Length, Quantity, Row, Rows, Share
+from magwire.scenario.quantity import Length, Quantity, Row, Rows, Share, Whole
 from magwire.scenario.tables import Table, preset
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ FieldRate = Annotated[float, Quantity("flux_gradient", "positive")]
 Stability = Annotated[float, Quantity("rate_squared", "positive")]
 Part = Annotated[float, Share(0.0, 1.0)]
 Tolerance = Annotated[float, Share(0.0, 0.5)]
+Momentum = Annotated[float, Share(1e-9, 10.0)]
 
 
 class SteeringTable(Table):
@@ -48,22 +49,28 @@ class NoSteering(SteeringTable):
         return None
 
 
-class StableSteering(SteeringTable):
+class ModelSteering(SteeringTable):
+    """Steering by a navigator that has a model of the wire."""
+
+    method: Literal["stable", "newton", "paper"]
+    update_every: Length = preset("0.5 mm")
+
+    @property
+    def interval(self) -> float:
+        """Feed between two observations [m]."""
+        return self.update_every
+
+
+class StableSteering(ModelSteering):
     """The least field that keeps the tip clear of the wall, stably."""
 
     method: Literal["stable"]
-    update_every: Length = preset("0.5 mm")
     plan_every: Length | None = None
     tip_clearance: Part = 0.5
     stability_margin: Stability = preset("1 1/s^2")
     field_tolerance: Tolerance = 0.05
     max_field: FieldLimit | None = None
     max_field_rate: FieldRate | None = None
-
-    @property
-    def interval(self) -> float:
-        """Feed between two observations [m]."""
-        return self.update_every
 
     def build(self, simulation: Simulation) -> Navigator | None:
         """The navigator of one run, as yet without a memory."""
@@ -76,12 +83,44 @@ class StableSteering(SteeringTable):
             field_tolerance=self.field_tolerance,
             **{name: limit for name, limit in limits.items() if limit is not None},
         )
-        return StableNavigator(
-            simulation.system,
-            path=simulation.system.lumen.path(),
-            demands=demands,
-            plan_every=self.plan_every,
+        return StableNavigator(simulation.system, demands=demands, plan_every=self.plan_every)
+
+
+class NewtonSteering(ModelSteering):
+    """The tip on the centreline, by Newton's method on the virtual tube's force."""
+
+    method: Literal["newton"]
+    plan_every: Length | None = None
+
+    def build(self, simulation: Simulation) -> Navigator | None:
+        """The navigator of one run, as yet without a memory."""
+        from magwire.navigate.newton import NewtonNavigator
+
+        return NewtonNavigator(simulation.system, plan_every=self.plan_every)
+
+
+class PaperSteering(ModelSteering):
+    """The tip on the centreline, by the paper's optimiser."""
+
+    method: Literal["paper"]
+    difference: FieldLimit = preset("0.1 mT")
+    beta1: Momentum = 0.9
+    beta2: Momentum = 1e-4
+    tolerance: Momentum = 0.05
+    iterations: Annotated[int, Whole(1, 100_000)] = 200
+
+    def build(self, simulation: Simulation) -> Navigator | None:
+        """The navigator of one run, as yet without a memory."""
+        from magwire.navigate.paper import Optimiser, PaperNavigator
+
+        optimiser = Optimiser(
+            difference=self.difference,
+            beta1=self.beta1,
+            beta2=self.beta2,
+            tolerance=self.tolerance,
+            iterations=self.iterations,
         )
+        return PaperNavigator(simulation.system, optimiser=optimiser)
 
 
 class ScheduledSteering(SteeringTable):

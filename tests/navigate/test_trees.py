@@ -1,0 +1,33 @@
+"""Into the chosen branch of a tree, without a touch of the tip."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from magwire.scenario import load
+
+
+@pytest.mark.parametrize("target", ["left", "middle", "right"])
+@pytest.mark.parametrize("method", ["stable", "newton"])
+def test_tip_ends_in_the_branch_it_was_sent_to(target: str, method: str) -> None:
+    scenario = load(f"{target}-branch", [f"navigate.method={method}"])
+    result = scenario.run()
+    assert result.status == "complete"
+    assert result.max_tip_force == 0.0
+    lumen = scenario.lumen.build()
+    tip = result.position[-1][-1]
+    distance = {name: lumen.path(name).offset(tip[None])[0] for name in lumen.outlets}
+    assert min(distance, key=lambda name: distance[name]) == target
+    assert distance[target] < 0.6 * lumen.radius_range[1]
+    others = [distance[name] for name in lumen.outlets if name != target]
+    assert np.min(others) > 2.0 * lumen.radius_range[1]
+
+
+def test_passively_it_goes_where_the_tube_goes_on() -> None:
+    scenario = load("left-branch")
+    result = scenario.run()
+    lumen = scenario.lumen.build()
+    tip = result.position[-1][-1]
+    assert lumen.path("middle").offset(tip[None])[0] < lumen.radius_range[1]
+    assert lumen.path("left").offset(tip[None])[0] > 2.0 * lumen.radius_range[1]
