@@ -104,3 +104,16 @@ def test_where_the_paper_stalls_it_says_so() -> None:
 
     with pytest.raises(NavigationError, match="the optimiser stalls: after 1 iterations"):
         push_on()
+
+
+def test_back_out_again() -> None:
+    navigator, forth = steered("half-circle", 0.03)
+    back = navigator.plan(observation(0.03), 0.02)
+    scale = navigator.model.system.scales.flux_density
+    assert back.feed[0] == pytest.approx(0.02)
+    assert back.feed[-1] == pytest.approx(0.03)
+    # Least-norm steps leave the component along the tip where it was: only the tip comes back.
+    assert np.abs(back.at(0.02) - forth.at(0.02)).max() < 30.0 * scale
+    view = navigator.model.look()
+    assert view is not None
+    assert np.linalg.norm(view.offset) < TUBE * view.radius

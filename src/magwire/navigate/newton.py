@@ -61,13 +61,13 @@ class NewtonNavigator:
 
     def plan(self, observation: Observation, until: float) -> Schedule:
         """The field from the observed feed on; see ``Navigator.plan``."""
-        knots, fluxes = [self.model.feed], [self.model.flux]
-        steps = max(1, int(np.ceil((until - self.model.feed) / self.plan_every - 1e-9)))
-        for feed in np.linspace(self.model.feed, until, steps + 1)[1:]:
+        begin = self.model.feed
+        course = [(begin, self.model.flux)]
+        steps = max(1, int(np.ceil(abs(until - begin) / self.plan_every - 1e-9)))
+        for feed in np.linspace(begin, until, steps + 1)[1:]:
             self._go_to(float(feed))
-            knots.append(float(feed))
-            fluxes.append(self.model.flux)
-        return Schedule(np.array(knots), np.array(fluxes))
+            course.append((float(feed), self.model.flux))
+        return Schedule.along(course)
 
     def _go_to(self, feed: float) -> None:
         model = self.model

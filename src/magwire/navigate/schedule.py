@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,6 +44,12 @@ class Schedule:
             )
         object.__setattr__(self, "feed", feed)
         object.__setattr__(self, "flux_density", flux)
+
+    @classmethod
+    def along(cls, course: Sequence[tuple[float, Array]]) -> Schedule:
+        """A schedule from feeds [m] and fields [T] in the order of the motion, either way."""
+        ordered = course if course[-1][0] >= course[0][0] else course[::-1]
+        return cls(np.array([feed for feed, _ in ordered]), np.array([b for _, b in ordered]))
 
     def at(self, feed: ArrayLike) -> Array:
         """Flux density at feeds, shape (n, 3) [T]."""

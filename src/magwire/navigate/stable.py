@@ -126,14 +126,12 @@ class StableNavigator:
         if abs(model.feed - observation.feed) > 1e-9:
             self._go_to(observation.feed)
         begin = model.feed
-        knots, fluxes = [begin], [model.flux]
+        course = [(begin, model.flux)]
         steps = max(1, int(np.ceil(abs(until - begin) / self.plan_every - 1e-9)))
         for feed in np.linspace(begin, until, steps + 1)[1:]:
             self._go_to(float(feed))
-            knots.append(float(feed))
-            fluxes.append(model.flux)
-        order = 1 if until >= begin else -1
-        return Schedule(np.array(knots)[::order], np.array(fluxes)[::order])
+            course.append((float(feed), model.flux))
+        return Schedule.along(course)
 
     def _go_to(self, feed: float) -> None:
         """Feed the model on and find the field there."""
