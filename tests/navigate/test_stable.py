@@ -127,3 +127,14 @@ def test_faulty_demands_and_wires_are_refused() -> None:
     bare = Simulation(Wire.uniform(L, 0.6e-3, 3e6, 1e6, 2000.0, 50), Lumen.straight(L, 3e-3))
     with pytest.raises(InputError, match="must be magnetised"):
         StableNavigator(bare.system)
+
+
+def test_a_pause_and_a_retreat_are_steered_too() -> None:
+    """Push to 30 mm, wait, pull back to 20 mm."""
+    run = simulation("half-circle", paper_wire())
+    times = [0.0, 30.0, 30.1, 40.0, 40.1, 50.0]
+    feed = Feed.table(times, [1e-3, 1e-3, 0.0, 0.0, -1e-3, -1e-3])
+    result = run.run(feed, StableNavigator(run.system), time_step=0.05)
+    assert result.status == "complete", result.message
+    assert result.max_tip_force == 0.0
+    assert float(result.dataset["feed"][-1]) == pytest.approx(0.0201, abs=2e-4)

@@ -47,9 +47,13 @@ class Schedule:
 
     @classmethod
     def along(cls, course: Sequence[tuple[float, Array]]) -> Schedule:
-        """A schedule from feeds [m] and fields [T] in the order of the motion, either way."""
-        ordered = course if course[-1][0] >= course[0][0] else course[::-1]
-        return cls(np.array([feed for feed, _ in ordered]), np.array([b for _, b in ordered]))
+        """A schedule from feeds [m] and fields [T] in the order of the motion, either way.
+
+        Of a feed that comes more than once, as in a pause, the last field counts.
+        """
+        fields = dict(course)
+        knots = sorted(fields)
+        return cls(np.array(knots), np.array([fields[feed] for feed in knots]))
 
     def at(self, feed: ArrayLike) -> Array:
         """Flux density at feeds, shape (n, 3) [T]."""
