@@ -50,7 +50,11 @@ if "NUMBA_CACHE_DIR" not in os.environ:
 
 
 def kernel(function: Function) -> Function:
-    """Compile a kernel on first use; cached on disk, free of the GIL, IEEE division."""
+    """Compile a kernel on first use; cached on disk, free of the GIL, IEEE division.
+
+    Without numba's runtime (``_nrt``) arrays are not reference-counted, which costs half of a time
+    step; a kernel that allocates memory is refused.
+    """
     compiled: Function = numba.njit(cache=True, nogil=True, error_model="numpy", _nrt=False)(
         function
     )
