@@ -24,6 +24,15 @@ def test_tip_ends_in_the_branch_it_was_sent_to(target: str, method: str) -> None
     assert np.min(others) > 2.0 * lumen.radius_range[1]
 
 
+def test_small_steps_through_the_first_contact_of_the_body() -> None:
+    """Where the wire behind the tip meets the wall, programmes must not jump to and fro."""
+    keys = ["navigate.method=stable", "navigate.update_every=0.1 mm", "feed.distance=60 mm"]
+    result = load("right-branch", keys).run()
+    assert result.status == "complete", result.message
+    assert 0.05 < result.first_contact < 0.06
+    assert result.max_tip_force == 0.0
+
+
 def test_passively_it_goes_where_the_tube_goes_on() -> None:
     scenario = load("left-branch")
     result = scenario.run()

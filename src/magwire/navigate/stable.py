@@ -32,6 +32,7 @@ PROGRAMMES = 8  # per planned feed, at most
 SETTLED = 5e-4  # they end when the field changes by less than this, in REFERENCE
 TRUST = 0.3  # largest change of a component of the field in one programme, in REFERENCE
 HALVINGS = 6
+ROUND_OFF = 1e-4  # a rise of the merit by less does not matter
 PENALTY = 300.0  # price of missing a constraint: it is paid only where there is no other way
 MISSED = 0.1  # part of the lumen's radius, or of the margin, by which a constraint may be missed
 REFERENCE = 100.0  # field of order one inside, in EI/(M L^2)
@@ -167,36 +168,54 @@ class StableNavigator:
         clearance = view.radius - self._keep_off
         return clearance * (1.0 - self.demands.tip_clearance)
 
-    def _programme(self, view: View, before: Array, largest: float) -> Array:
-        """Change of the field by one quadratic programme, shape (3,), in units of its own.
+    def _constraints(self, view: View) -> tuple[Array, Array, Array]:
+        """The linearised constraints, rows . change - missed <= upper.
 
-        Unknowns: the change, and how far offset and eigenvalue may miss what is asked for.
+        Returns
+        -------
+        tuple
+            Rows, shape (m, 5), for the change of the field in units of its own and for how far
+            offset and eigenvalue miss what is asked for; upper bounds, shape (m,); and which
+            of the two misses a row belongs to, shape (m,).
         """
         unit, size, margin = self._unit, view.radius, self.demands.stability_margin
         b = self.model.flux / unit
         offset, by_field = view.offset / size, view.offset_by_flux * (unit / size)
         weight = max(view.eigenvalue, margin)
         value, by_eigen = view.eigenvalue / weight, view.eigenvalue_by_flux * (unit / weight)
-        rows, bounds, misses = [], [], []
+        rows, upper = [], []
         tolerance = self.demands.field_tolerance
-        for off in (0.0, -tolerance, tolerance) if tolerance > 0.0 else (0.0,):
+        offs = (0.0, -tolerance, tolerance) if tolerance > 0.0 else (0.0,)
+        for off in offs:
             room = self._room(view) / size * (1.0 if off == 0.0 else OFF_ROOM)
             rows.append(self._sides @ by_field * (1.0 + off))
-            bounds.append(room - self._sides @ (offset + off * (by_field @ b)))
-            misses += [(-1.0, 0.0)] * SIDES
+            upper.append(room - self._sides @ (offset + off * (by_field @ b)))
             rows.append(-by_eigen[None] * (1.0 + off))
-            bounds.append(np.array([value + off * (by_eigen @ b) - margin / weight]))
-            misses.append((0.0, -1.0))
-        matrix = np.hstack([np.concatenate(rows), np.array(misses)])
-        upper = np.concatenate(bounds)
-        reach = np.full(3, TRUST)
-        low = np.maximum(-reach, (before - largest) / unit - b) if np.isfinite(largest) else -reach
-        high = np.minimum(reach, (before + largest) / unit - b) if np.isfinite(largest) else reach
+            upper.append(np.array([value + off * (by_eigen @ b) - margin / weight]))
+        kind = np.tile(np.array([0] * SIDES + [1]), len(offs))
+        misses = -np.eye(2)[kind]
+        return np.hstack([np.concatenate(rows), misses]), np.concatenate(upper), kind
+
+    def _merit(self, view: View) -> float:
+        """What a programme minimises, at the field as it is."""
+        _, upper, kind = self._constraints(view)
+        missed = sum(max(0.0, float(-upper[kind == k].min())) for k in (0, 1))
+        b = self.model.flux / self._unit
+        return 0.5 * float(b @ b) + PENALTY * missed
+
+    def _programme(self, view: View, before: Array, largest: float) -> Array:
+        """Change of the field by one quadratic programme, shape (3,), in units of its own."""
+        b = self.model.flux / self._unit
+        rows, upper, _ = self._constraints(view)
+        low, high = np.full(3, -TRUST), np.full(3, TRUST)
+        if np.isfinite(largest):
+            low = np.maximum(low, (before - largest) / self._unit - b)
+            high = np.maximum(low, np.minimum(high, (before + largest) / self._unit - b))
         solution, _, flag, _ = daqp.solve(
             np.eye(5),
             np.concatenate([b, [PENALTY, PENALTY]]),
-            np.ascontiguousarray(matrix),
-            np.concatenate([np.maximum(high, low), [1e3, 1e3], upper]),
+            np.ascontiguousarray(rows),
+            np.concatenate([high, [1e3, 1e3], upper]),
             np.concatenate([low, [0.0, 0.0], np.full(len(upper), -1e30)]),
             np.zeros(5 + len(upper), dtype=np.int32),
         )
@@ -209,23 +228,17 @@ class StableNavigator:
         return result
 
     def _try(self, change: Array, view: View) -> tuple[View, Array]:
-        """Go to the changed field, or part of the way if the wire would not stay stable there."""
+        """Go to the changed field, or as much of the way as makes things better."""
         model = self.model
-        start = model.remember()
+        start, merit = model.remember(), self._merit(view)
         for _ in range(HALVINGS):
             if model.settle(start.flux + change):
                 there = model.look()
-                if there is not None and self._tolerable(there, view):
+                if there is not None and self._merit(there) <= merit + ROUND_OFF:
                     return there, change
                 model.return_to(start)
             change = 0.5 * change
         return view, np.zeros(3)
-
-    def _tolerable(self, there: View, here: View) -> bool:
-        """Whether an iterate may be gone on from: not near the wall, nor near instability."""
-        nearest = max(OFF_ROOM * self._room(there), float(np.linalg.norm(here.offset)))
-        least = min(0.2 * self.demands.stability_margin, here.eigenvalue)
-        return bool(np.linalg.norm(there.offset) <= nearest and there.eigenvalue >= least)
 
     def _judge(self, view: View, feed: float) -> None:
         """Raise if the field found does not do what is asked for."""
