@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
+from magwire.navigate import Observation
 from magwire.navigate.model import Model, View
+from magwire.navigate.stable import StableNavigator
 from tangent import mass, stiffness
 from wires import L, paper_wire, simulation
 
@@ -83,3 +85,19 @@ def test_an_unstable_equilibrium_has_no_view() -> None:
     assert steered.feed_to(0.008)
     assert steered.settle(np.array([-0.5, 0.0, 0.0]))
     assert steered.look() is None
+
+
+def test_slowest_mode_is_found_from_a_guess_in_another_plane() -> None:
+    """Where the wire is about to swing out of the plane, though the guess lies in it."""
+    navigator = StableNavigator(simulation("half-circle", paper_wire()).system)
+    navigator.plan(Observation(0.0, np.zeros(3), np.array([1.0, 0.0, 0.0])), 0.06)
+    steered = navigator.model
+    before = steered.look()
+    assert before is not None
+    mode = steered._linear.mode[8 : 4 * (len(steered._state.q) - steered._held + 1) - 1]
+    assert np.abs(mode[2::4]).max() > 10.0 * np.abs(mode[0::4]).max()  # it swings along z
+    mode[:] = 0.0
+    mode[1::4] = 1.0
+    after = steered.look()
+    assert after is not None
+    assert after.eigenvalue == pytest.approx(before.eigenvalue, rel=1e-6)

@@ -15,6 +15,7 @@ from magwire.kernels.newton import take_step
 from magwire.kernels.vectors import row
 
 SWEEPS = 60  # of inverse iteration, at most
+SHARE = 0.03  # of every direction in the first guess of a mode
 SETTLED = 1e-9  # relative change of the eigenvalue at which they end
 PROBE = 1e-5  # step along a sensitivity for the change of the stiffness, in wire lengths
 
@@ -88,6 +89,19 @@ def quotient(band, mode, last):
 
 
 @part
+def mix(mode, last):
+    """Give every direction a share in the guess of the slowest mode.
+
+    A guess that lies in a plane, as the mode before may, would never find a mode across it.
+    """
+    size = 0.0
+    for r in range(FIRST, last):
+        size = max(size, abs(mode[r]))
+    for r in range(FIRST, last):
+        mode[r] += SHARE * size
+
+
+@part
 def slowest_mode(band, rod, held, mode, last):
     """Smallest eigenvalue of stiffness against lumped mass, by inverse iteration on the factor.
 
@@ -111,23 +125,39 @@ def slowest_mode(band, rod, held, mode, last):
 
 
 @kernel
-def linearise(model, state, mouth, work, linear):
-    """Linearise a stable equilibrium about its uniform field.
+def respond(model, state, mouth, work, linear):
+    """Change of the unknowns by each field component, into ``linear.moves`` (P-21).
 
-    Fills ``linear``; returns the smallest eigenvalue [rad^2/s^2], not positive if the equilibrium
-    is not stable, and then nothing else is filled.
+    Leaves the factor of the tangent stiffness in the band; returns whether there is one, that is,
+    whether the equilibrium is stable.
     """
-    rod, field, wall, lumen = model
     held = mouth.held
     still = Motion(0.0, work.target)
     last = 4 * (state.q.shape[0] - held + 1) - 1
     assemble(model, state, mouth, still, work.gradient, work.band)
     if factor(work.band, FIRST, last) >= 0:
-        return 0.0
-    value = slowest_mode(work.band, rod, held, linear.mode, last)
+        return False
     for axis in range(3):
-        load_of_field(rod, state, held, axis, linear.moves[axis])
+        load_of_field(model[0], state, held, axis, linear.moves[axis])
         solve(work.band, linear.moves[axis], FIRST, last)
+    return True
+
+
+@kernel
+def linearise(model, state, mouth, work, linear):
+    """Linearise a stable equilibrium about its uniform field.
+
+    Fills ``linear``; returns the smallest eigenvalue [rad^2/s^2], or zero if the equilibrium is not
+    stable, and then nothing is filled.
+    """
+    if not respond(model, state, mouth, work, linear):
+        return 0.0
+    rod, field, wall, lumen = model
+    held = mouth.held
+    still = Motion(0.0, work.target)
+    last = 4 * (state.q.shape[0] - held + 1) - 1
+    mix(linear.mode, last)
+    value = slowest_mode(work.band, rod, held, linear.mode, last)
     for axis in range(3):
         size = 0.0
         for r in range(FIRST, last):

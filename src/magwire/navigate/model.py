@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,13 +10,15 @@ from numpy.typing import NDArray
 
 from magwire.engine.status import Status
 from magwire.engine.system import System
+from magwire.errors import InputError
 from magwire.kernels.arrays import Field, Motion, Mouth, State
 from magwire.kernels.gap import gap_value
 from magwire.kernels.guide import find_mouth, place_held
-from magwire.kernels.linearise import Linear, linearise, tube_force
+from magwire.kernels.linearise import Linear, linearise, respond, tube_force
 from magwire.kernels.march import Plan, Tally, march
 from magwire.kernels.newton import newton
 from magwire.lumen import Lumen
+from magwire.navigate.schedule import Schedule
 
 Array = NDArray[np.float64]
 
@@ -76,9 +79,16 @@ class Model:
         Uniform flux density, shape (3,) [T].
     solves
         Equilibria solved so far.
+
+    Raises
+    ------
+    InputError
+        If the wire has no magnetisation, so that no field moves it.
     """
 
     def __init__(self, system: System, path: Lumen, tube_radius: float | None = None) -> None:
+        if not system.scales.flux_density > 0.0:
+            raise InputError("Input wire of a navigator must be magnetised; received none.")
         self.system = system
         self.path = path
         self.feed = 0.0
@@ -124,6 +134,18 @@ class Model:
         self.feed = float(course[done]) * length
         return bool(status == Status.CONVERGED)
 
+    def plan(self, until: float, every: float, find_field: Callable[[float], None]) -> Schedule:
+        """The schedule up to a feed [m], with a field found at least ``every`` [m].
+
+        ``find_field`` feeds the model to a feed and changes its field.
+        """
+        course = [(self.feed, self.flux)]
+        steps = max(1, int(np.ceil(abs(until - self.feed) / every - 1e-9)))
+        for feed in np.linspace(self.feed, until, steps + 1)[1:]:
+            find_field(float(feed))
+            course.append((float(feed), self.flux))
+        return Schedule.along(course)
+
     def settle(self, flux: Array) -> bool:
         """Find the equilibrium in another field; if there is none, stay as before."""
         before = self.remember()
@@ -168,8 +190,8 @@ class Model:
         Shapes (3,) and (3, 3) (P-19, P-21). At an unstable equilibrium the derivative is zero.
         """
         force, slope = self._tube_force()
-        value = linearise(self._model(), self._state, self._mouth(), self._work, self._linear)
-        moves = self._tip_moves() if value > 0.0 else np.zeros((3, 3))
+        stable = respond(self._model(), self._state, self._mouth(), self._work, self._linear)
+        moves = self._tip_moves() if stable else np.zeros((3, 3))
         return force, slope @ moves
 
     def _tube_force(self) -> tuple[Array, Array]:

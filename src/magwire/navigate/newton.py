@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.engine.system import System
-from magwire.errors import InputError, positive
+from magwire.errors import positive
 from magwire.lumen import Lumen
 from magwire.navigate.model import Model
 from magwire.navigate.navigator import NavigationError, Observation
@@ -52,8 +52,6 @@ class NewtonNavigator:
     def __init__(
         self, system: System, *, path: Lumen | None = None, plan_every: float | None = None
     ) -> None:
-        if not system.scales.flux_density > 0.0:
-            raise InputError("Input wire of NewtonNavigator must be magnetised; received none.")
         tube = system.path if path is None else path
         length = 5e-3 * system.wire.length if plan_every is None else plan_every
         self.plan_every = positive("NewtonNavigator", "plan_every", length, "m")
@@ -61,13 +59,7 @@ class NewtonNavigator:
 
     def plan(self, observation: Observation, until: float) -> Schedule:
         """The field from the observed feed on; see ``Navigator.plan``."""
-        begin = self.model.feed
-        course = [(begin, self.model.flux)]
-        steps = max(1, int(np.ceil(abs(until - begin) / self.plan_every - 1e-9)))
-        for feed in np.linspace(begin, until, steps + 1)[1:]:
-            self._go_to(float(feed))
-            course.append((float(feed), self.model.flux))
-        return Schedule.along(course)
+        return self.model.plan(until, self.plan_every, self._go_to)
 
     def _go_to(self, feed: float) -> None:
         model = self.model

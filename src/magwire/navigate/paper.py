@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.engine.system import System
-from magwire.errors import InputError, positive, whole
+from magwire.errors import positive, whole
 from magwire.lumen import Lumen
 from magwire.navigate.model import Model
 from magwire.navigate.navigator import NavigationError, Observation
@@ -80,8 +80,6 @@ class PaperNavigator:
     def __init__(
         self, system: System, *, path: Lumen | None = None, optimiser: Optimiser | None = None
     ) -> None:
-        if not system.scales.flux_density > 0.0:
-            raise InputError("Input wire of PaperNavigator must be magnetised; received none.")
         tube = system.path if path is None else path
         self.optimiser = Optimiser() if optimiser is None else optimiser
         self.model = Model(system, tube, TUBE * tube.narrowest)

@@ -104,9 +104,6 @@ class StableNavigator:
         plan_every: float | None = None,
     ) -> None:
         self.demands = Demands() if demands is None else demands
-        scale = system.scales.flux_density
-        if not scale > 0.0:
-            raise InputError("Input wire of StableNavigator must be magnetised; received none.")
         path = system.path if path is None else path
         if len(path.branches) != 1:
             raise InputError(
@@ -116,7 +113,7 @@ class StableNavigator:
         length = 5e-3 * system.wire.length if plan_every is None else plan_every
         self.plan_every = positive("StableNavigator", "plan_every", length, "m")
         self.model = Model(system, path)
-        self._unit = REFERENCE * scale
+        self._unit = REFERENCE * system.scales.flux_density
         self._keep_off = system.wire.radius if system.contact.wall == "surface" else 0.0
         angles = 2.0 * np.pi * np.arange(SIDES) / SIDES
         self._sides: Array = np.stack([np.cos(angles), np.sin(angles)], axis=1)
@@ -126,13 +123,7 @@ class StableNavigator:
         model = self.model
         if abs(model.feed - observation.feed) > 1e-9:
             self._go_to(observation.feed)
-        begin = model.feed
-        course = [(begin, model.flux)]
-        steps = max(1, int(np.ceil(abs(until - begin) / self.plan_every - 1e-9)))
-        for feed in np.linspace(begin, until, steps + 1)[1:]:
-            self._go_to(float(feed))
-            course.append((float(feed), model.flux))
-        return Schedule.along(course)
+        return model.plan(until, self.plan_every, self._go_to)
 
     def _go_to(self, feed: float) -> None:
         """Feed the model on and find the field there."""
