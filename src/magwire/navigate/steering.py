@@ -36,11 +36,12 @@ def steered_records(
         If the navigator finds no field.
     """
     yield march.record()
+    goal = float(march.feeds(march.steps).max())
     while march.step < march.steps:
         if march.step % update == 0:
             feeds = march.feeds(march.step + update)
             position, direction = march.tip()
-            seen = Observation(march.feed, position, direction)
+            seen = Observation(march.feed, position, direction, goal)
             march.steer(navigator.plan(seen, float(feeds[-1])).at(feeds))
         step = min(every - march.step % every, update - march.step % update)
         converged = march.advance(step)
