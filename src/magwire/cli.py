@@ -239,6 +239,8 @@ def carry_out(
         pictures.save(result.dataset, folder, passive=passive.dataset if passive else None)
         if steered and result.time.size:
             write_schedule(schedule_of(result), folder / SCHEDULE)
+    if passive is not None:
+        say(f"{'gained':{COLUMN}}{gain(result, passive)}")
     say(f"{'written to':{COLUMN}}{folder}")
     return max(outcome(run) for run in results)
 
@@ -361,6 +363,19 @@ def summary(result: Result, *, steered: bool = False, passive: Result | None = N
         "wall time": f"{pace:.4g} s per simulated second, {result.wall_time:.2f} s in all",
     }
     return [f"{name:{COLUMN}}{text}" for name, text in rows.items()]
+
+
+def gain(steered: Result, passive: Result) -> str:
+    """What steering gained over pushing alone, in one line."""
+
+    def change(before: float, after: float) -> str:
+        return f"{1e3 * before:.3g} mN to " + (f"{1e3 * after:.3g} mN" if after else "none")
+
+    peak = change(passive.max_tip_force, steered.max_tip_force)
+    mean = change(passive.mean_tip_force, steered.mean_tip_force)
+    fed = [float(run.feed.max(initial=0.0)) for run in (steered, passive)]
+    far = f"; over {1e3 * fed[0]:.4g} mm of {1e3 * fed[1]:.4g}" if fed[0] < fed[1] else ""
+    return f"peak tip force from {peak}, mean from {mean}{far}"
 
 
 def check_free(folder: Path, *, force: bool) -> None:

@@ -11,13 +11,14 @@ import numpy as np
 import pytest
 
 from magwire import plot
-from magwire.cli import main
+from magwire.cli import gain, main
 from magwire.results import Result
 from magwire.scenario import load, read_schedule
 
 STEERED = ("--set", "feed.distance=16 mm", "solver.time_step=100 ms", "wire.nodes=40")
-STEERED += ("navigate.method=stable", "navigate.update_every=1 mm", "navigate.plan_every=1 mm")
+STEERED += ("navigate.update_every=1 mm", "navigate.plan_every=1 mm")
 SHORT = ("--set", "feed.distance=2 mm", "solver.time_step=100 ms", "wire.nodes=40")
+SHORT += ("navigate.method=none",)
 FILES = ["figure.png", "figure.svg", "result.nc", "scenario.toml", "schedule.csv"]
 
 
@@ -73,6 +74,22 @@ def test_summary_tells_of_steering(finished: tuple[Path, str]) -> None:
     field, normalised = rows["peak field"].split(", normalised ")
     assert field.endswith(" mT")
     assert float(normalised) == pytest.approx(float(field.split()[0]) * 4.742, rel=1e-3)
+
+
+def test_what_was_gained_is_said_in_the_end(finished: tuple[Path, str]) -> None:
+    out, said = finished
+    passive = Result.load(out / "result-none.nc")
+    peak, mean = (f"{1e3 * f:.3g} mN" for f in (passive.max_tip_force, passive.mean_tip_force))
+    assert list(rows_in(said))[-2:] == ["gained", "written to"]
+    assert (
+        rows_in(said)["gained"] == f"peak tip force from {peak} to none, mean from {mean} to none"
+    )
+
+
+def test_gain_over_a_shorter_way_says_so(compared: Path) -> None:
+    passive = Result.load(compared / "result-none.nc")
+    part = Result(passive.dataset.isel(time=slice(0, 101)))
+    assert gain(part, passive).endswith("; over 10 mm of 16")
 
 
 def test_comparison_needs_steering(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
