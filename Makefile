@@ -1,7 +1,7 @@
 # Every target works in a fresh clone: it makes .venv from the system's python3 and installs what it
 # needs. A stamp file remembers the installation; it is redone when pyproject.toml changes.
 #
-#   make demo    push the wire through the half-circle and draw the figure
+#   make demo    steer the wire through the half-circle, and push it through without steering
 #   make test    run the tests
 #   make lint    format check, lint, types, layers
 #   make docs    build the documentation into docs/_build/html
@@ -22,8 +22,8 @@ help:
 	@sed -n 's/^#   make /  make /p' $(firstword $(MAKEFILE_LIST))
 
 demo: $(VENV)/.run
-	@$(BIN)/magwire run half-circle --out demo --force
-	@echo "The figure is demo/figure.png (and .svg), the data are in demo/result.nc."
+	@$(BIN)/magwire run half-circle --compare none --out demo --force
+	@echo "The figure is demo/figure.png (and .svg), the data are in demo/result.nc and result-none.nc."
 
 test: $(VENV)/.dev
 	@$(BIN)/python -m pytest

@@ -47,6 +47,7 @@ class Case:
 
     def job(self, push: float) -> Job:
         settings = (
+            "navigate.method=none",
             f"solver.time_step={self.time_step} s",
             f"wire.nodes={self.nodes}",
             f"lumen.points={self.points}",

@@ -18,10 +18,10 @@ import numpy as np
 import magwire as mw
 
 # %%
-# The scenario of the library, loaded and built. The same can be written down in Python, as in the
-# example on an own wire.
+# The scenario of the library without its steering, loaded and built. The same can be written down
+# in Python, as in the example on an own wire.
 
-job = mw.load_scenario("half-circle").build()
+job = mw.load_scenario("half-circle", ["navigate.method=none"]).build()
 result = job.run()
 
 data = result.dataset

@@ -23,8 +23,9 @@ if TYPE_CHECKING:
     from magwire.lumen import Lumen as Lumen
     from magwire.navigate import Prescribed as Prescribed
     from magwire.navigate import Schedule as Schedule
-    from magwire.navigate.stable import Demands as Demands
+    from magwire.navigate.demands import Demands as Demands
     from magwire.navigate.stable import StableNavigator as StableNavigator
+    from magwire.navigate.tip import TipNavigator as TipNavigator
     from magwire.results import Result as Result
     from magwire.scenario import Scenario as Scenario
     from magwire.scenario import load as load_scenario
@@ -54,6 +55,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Section": ("magwire.wire", "Section"),
     "Simulation": ("magwire.simulation", "Simulation"),
     "StableNavigator": ("magwire.navigate.stable", "StableNavigator"),
+    "TipNavigator": ("magwire.navigate.tip", "TipNavigator"),
     "UniformField": ("magwire.field", "UniformField"),
     "Wire": ("magwire.wire", "Wire"),
     "load_scenario": ("magwire.scenario", "load"),
@@ -79,6 +81,7 @@ __all__ = [
     "Section",
     "Simulation",
     "StableNavigator",
+    "TipNavigator",
     "UniformField",
     "Wire",
     "__version__",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -26,8 +25,6 @@ INTERRUPTED = 130
 """Exit status after Ctrl-C, as shells have it."""
 RESULT, SCENARIO, FIGURES = "result.nc", "scenario.toml", ("figure.png", "figure.svg")
 PASSIVE, SCHEDULE = "result-none.nc", "schedule.csv"
-COLUMN = 20
-"""Width of the names in the summary."""
 
 Folder = Annotated[Path | None, Parameter(help="Folder for the output.")]
 Force = Annotated[bool, Parameter(negative="", help="Overwrite what is there.")]
@@ -230,7 +227,9 @@ def carry_out(
         return INTERRUPTED
     passive = others[0] if others else None
     steered = described.navigate.method != "none"
-    for line in summary(result, steered=steered, passive=passive):
+    from magwire import summary
+
+    for line in summary.lines(result, steered=steered, passive=passive):
         say(line)
     with writing_to(folder):
         from magwire import plot as pictures
@@ -239,7 +238,9 @@ def carry_out(
         pictures.save(result.dataset, folder, passive=passive.dataset if passive else None)
         if steered and result.time.size:
             write_schedule(schedule_of(result), folder / SCHEDULE)
-    say(f"{'written to':{COLUMN}}{folder}")
+    if passive is not None:
+        say(f"{'gained':{summary.COLUMN}}{summary.gain(result, passive)}")
+    say(f"{'written to':{summary.COLUMN}}{folder}")
     return max(outcome(run) for run in results)
 
 
@@ -311,56 +312,6 @@ def progress(duration: float) -> Iterator[Callable[[Record], None]]:
             )
 
         yield watch
-
-
-def summary(result: Result, *, steered: bool = False, passive: Result | None = None) -> list[str]:
-    """What to know of a run, a line each.
-
-    Parameters
-    ----------
-    result
-        The run.
-    steered
-        Whether to say how well it was steered.
-    passive
-        The same run with nobody steering, to compare with.
-    """
-    from magwire.units import show
-
-    def force(newtons: float) -> str:
-        return f"{newtons:.4g} N, normalised {newtons / result.force_scale:.4g}"
-
-    last = result.time.size - 1
-    simulated = float(result.time[last]) if last >= 0 else 0.0
-    fed = float(result.feed[last]) if last >= 0 else 0.0
-    contact = result.first_contact
-    length = float(result.dataset.attrs["length_scale"])
-    clearance = result.smallest_clearance
-    pace = result.wall_time / simulated if simulated > 0.0 else math.nan
-    scale = float(result.dataset.attrs["field_scale"])  # NaN without a magnet
-    behind = "the wire behind it does" if contact is not None else "nor does the wire behind it"
-    steering = {
-        "contact-free": f"yes, the tip never touches; {behind}" if result.contact_free else "no",
-        "largest tip offset": show(result.largest_tip_offset, "length"),
-        "peak field": show(result.peak_field, "flux_density")
-        + ("" if math.isnan(scale) else f", normalised {result.peak_field / scale:.4g}"),
-    }
-    rows = {
-        "status": result.status,
-        "fed": f"{show(fed, 'length')} in {result.steps} steps, {simulated:.4g} s simulated",
-        "peak tip force": force(result.max_tip_force),
-        **({"  not steered": force(passive.max_tip_force)} if passive else {}),
-        "mean tip force": force(result.mean_tip_force),
-        **({"  not steered ": force(passive.mean_tip_force)} if passive else {}),
-        "smallest clearance": "none, no wall" if math.isnan(clearance) else f"{clearance:.3e} m",
-        "first contact": "none"
-        if contact is None
-        else f"at a feed of {show(contact, 'length')}, push {contact / length:.3f}",
-        **(steering if steered else {}),
-        "Newton iterations": f"{result.newton_iterations_per_step:.2f} per step",
-        "wall time": f"{pace:.4g} s per simulated second, {result.wall_time:.2f} s in all",
-    }
-    return [f"{name:{COLUMN}}{text}" for name, text in rows.items()]
 
 
 def check_free(folder: Path, *, force: bool) -> None:

@@ -13,18 +13,25 @@ from magwire.contact import Barrier
 from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
 from magwire.engine.interrupt import held_back_interrupt
-from magwire.engine.record import Record, RunInfo
+from magwire.engine.record import Motion, Record, RunInfo
 from magwire.engine.statics import Equilibrium, find_equilibrium
 from magwire.engine.system import Release, System
-from magwire.errors import InputError, array, positive
+from magwire.errors import InputError, array, one_of, positive
 from magwire.field import FieldSource, UniformField
 from magwire.lumen import Lumen
-from magwire.navigate import NavigationError, Navigator
+from magwire.navigate import NavigationError, Navigator, Steering
 from magwire.navigate.steering import steered_records
 from magwire.wire import Wire
 
 if TYPE_CHECKING:
     from magwire.results import Result
+
+
+UPDATE_EVERY = 5e-4  # feed between two observations of a navigator that has no wish [m]
+UNSTABLE = (
+    "The equilibrium at {:.4g} mm of feed is unstable: a wire leaves it, and quasi-static motion "
+    "does not tell where to."
+)
 
 
 class Simulation:
@@ -87,17 +94,18 @@ class Simulation:
     def run(
         self,
         feed: Feed,
-        navigator: Navigator | None = None,
+        navigator: Navigator | Steering | None = None,
         *,
+        motion: Motion = "dynamic",
         time_step: float = 0.01,
         record_every: float = 1e-4,
-        update_every: float = 5e-4,
+        update_every: float | None = None,
         out: str | Path | None = None,
         title: str = "",
         scenario: str = "",
         watch: Callable[[Record], None] | None = None,
     ) -> Result:
-        """Push the wire through the lumen by implicit Euler steps (P-14, P-15).
+        """Push the wire through the lumen (P-14, P-15, P-16).
 
         Parameters
         ----------
@@ -105,12 +113,17 @@ class Simulation:
             The course of the guide.
         navigator
             Who steers, with a uniform field on top of the simulation's own; nobody if left out.
+        motion
+            ``"dynamic"``: implicit Euler steps. ``"quasi-static"``: an equilibrium at every record
+            and every observation, and two at least for every edge fed; the time is that of the
+            course, inertia and damping play no part.
         time_step
-            dt [s].
+            dt [s]; of quasi-static motion only where the course feeds nothing at all.
         record_every
             Feed between two records [m], at the course's fastest speed.
         update_every
-            Feed between two observations of the navigator [m], at the course's fastest speed.
+            Feed between two observations of the navigator [m], at the course's fastest speed; if
+            left out, what the navigator asks for, or 0.5 mm.
         out
             NetCDF file to write as the run goes; none if left out.
         title, scenario
@@ -122,19 +135,31 @@ class Simulation:
         -------
         Result
             Its ``status`` is "complete"; or "not converged" with a ``message`` that names the
-            remedy, and it then ends at the last state that did converge; or "no field" with a
-            ``message`` that says where the navigator found none, and why.
+            remedy, and it then ends at the last state that did converge; or "unstable", if the
+            motion is quasi-static and comes to an equilibrium that a wire would leave; or "no
+            field" with a ``message`` that says where the navigator found none, and why.
         """
         from magwire.results import Writer
 
-        march = March(self.system, self.field, feed, time_step=time_step)
-        every = _steps("record_every", record_every, feed, time_step)
-        update = _steps("update_every", update_every, feed, time_step)
+        inertia = one_of("Simulation", "motion", motion, ("dynamic", "quasi-static")) == "dynamic"
+        positive("Simulation", "record_every", record_every, "m")
+        if isinstance(navigator, Steering):
+            update_every = navigator.update_every if update_every is None else update_every
+            navigator = navigator.start(self.system)
+        update_every = UPDATE_EVERY if update_every is None else update_every
+        positive("Simulation", "update_every", update_every, "m")
+        if not inertia and feed.fastest > 0.0:
+            finer = record_every if navigator is None else min(record_every, update_every)
+            apart = min(finer, feed.fastest * feed.duration)
+            parts = np.ceil(apart / (0.5 * self.system.wire.edge_length) - 1e-9)
+            time_step = apart / float(parts) / feed.fastest
+        march = March(self.system, self.field, feed, time_step=time_step, inertia=inertia)
+        every, update = (_steps(length, feed, time_step) for length in (record_every, update_every))
         if navigator is None:
             records = march.records(every)
         else:
             records = steered_records(march, navigator, every=every, update=update)
-        info = self.info(title=title, scenario=scenario)
+        info = self.info(title=title, scenario=scenario, motion=motion)
         with Writer(info, out) as writer, held_back_interrupt() as strike:
             try:
                 for record in records:
@@ -142,6 +167,9 @@ class Simulation:
                     if watch is not None:
                         watch(record)
                     strike()
+                    if not (inertia or record.stable):
+                        writer.close("unstable", UNSTABLE.format(1e3 * record.feed))
+                        return writer.result()
                 converged = march.step == march.steps
                 writer.close("complete" if converged else "not converged", march.message)
             except NavigationError as error:
@@ -194,7 +222,7 @@ class Simulation:
             source = UniformField((float(flux[0]), float(flux[1]), float(flux[2])))
         return find_equilibrium(self.system, source, feed, start=start, twist=twist)
 
-    def info(self, *, title: str = "", scenario: str = "") -> RunInfo:
+    def info(self, *, title: str = "", scenario: str = "", motion: Motion = "dynamic") -> RunInfo:
         """What a result file says of the run as a whole."""
         points, radii, tags = [np.zeros((0, 3))], [np.zeros(0)], [np.zeros(0, dtype=np.int64)]
         for i in range(len(self.system.lumen.branches)):
@@ -210,11 +238,11 @@ class Simulation:
             lumen_branch=np.concatenate(tags),
             title=title,
             scenario=scenario,
+            motion=motion,
         )
 
 
-def _steps(name: str, length: float, feed: Feed, time_step: float) -> int:
+def _steps(length: float, feed: Feed, time_step: float) -> int:
     """How many time steps a length of feed takes, at the course's fastest speed."""
-    positive("Simulation", name, length, "m")
     interval = length / feed.fastest if feed.fastest > 0.0 else feed.duration
     return max(1, round(interval / time_step))

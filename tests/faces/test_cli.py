@@ -19,6 +19,7 @@ from magwire.results import Result
 from magwire.scenario import load, names
 
 SHORT = ("--set", "feed.distance=3 mm", "solver.time_step=100 ms", "wire.nodes=40")
+SHORT += ("navigate.method=none",)
 FILES = ["figure.png", "figure.svg", "result.nc", "scenario.toml"]
 
 
@@ -216,7 +217,7 @@ def test_faults_by_the_module(tmp_path: Path) -> None:
 @pytest.mark.skipif(sys.platform == "win32", reason="SIGINT cannot be sent to one process")
 def test_interruption_leaves_a_readable_result(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "magwire", "run", "half-circle", "--out", "out"]
-    command += ["--set", "solver.time_step=0.2 ms"]
+    command += ["--set", "solver.time_step=0.2 ms", "navigate.method=none"]
     process = subprocess.Popen(
         command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )

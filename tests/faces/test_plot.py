@@ -89,6 +89,14 @@ def test_title_tells_of_an_early_end() -> None:
     assert any("Bend (interrupted at push 0.290)" in title for title in titles)
 
 
+def test_title_tells_of_quasi_static_motion() -> None:
+    for run, title in (("Bend", "Bend, quasi-static"), ("", "quasi-static")):
+        figure = plot.draw(made(replace(info(title=run), motion="quasi-static"), 30))
+        assert any(ax.get_title(loc="left").endswith(title) for ax in figure.get_axes())
+    figure = plot.draw(made(info(title="Bend"), 30))
+    assert not any("dynamic" in ax.get_title(loc="left") for ax in figure.get_axes())
+
+
 def test_result_draws_itself(tmp_path: Path) -> None:
     result = Result(made(info(), 20))
     result.plot(tmp_path / "mine.pdf")

@@ -14,10 +14,12 @@ from magwire import plot
 from magwire.cli import main
 from magwire.results import Result
 from magwire.scenario import load, read_schedule
+from magwire.summary import gain
 
 STEERED = ("--set", "feed.distance=16 mm", "solver.time_step=100 ms", "wire.nodes=40")
-STEERED += ("navigate.method=stable", "navigate.update_every=1 mm", "navigate.plan_every=1 mm")
+STEERED += ("navigate.update_every=1 mm", "navigate.plan_every=1 mm")
 SHORT = ("--set", "feed.distance=2 mm", "solver.time_step=100 ms", "wire.nodes=40")
+SHORT += ("navigate.method=none",)
 FILES = ["figure.png", "figure.svg", "result.nc", "scenario.toml", "schedule.csv"]
 
 
@@ -70,9 +72,55 @@ def test_summary_tells_of_steering(finished: tuple[Path, str]) -> None:
     assert float(rows["not steered"].split()[0]) > 0.0
     assert rows["contact-free"].startswith("yes, the tip never touches")
     assert rows["largest tip offset"].endswith("mm")
+    assert rows["motion"] == "dynamic"
+    assert rows["stable"] == "at every record"
+    result = Result.load(finished[0])
+    away, at = result.largest_tip_departure, result.feed[np.nanargmax(result.tip_departure)]
+    said = f"by {1e3 * away:.3g} mm at most, at a feed of {1e3 * at:.6g} mm"
+    assert rows["tip off the plan"] == said
+    assert 0.0 < away < 1e-4
     field, normalised = rows["peak field"].split(", normalised ")
     assert field.endswith(" mT")
     assert float(normalised) == pytest.approx(float(field.split()[0]) * 4.742, rel=1e-3)
+
+
+def test_summary_of_quasi_static_motion(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = [*STEERED, "solver.motion=quasi-static", "--out", "out"]
+    assert main(["run", "half-circle", *words]) == 0
+    rows = rows_in(capsys.readouterr().out)
+    assert rows["fed"].startswith("16 mm in 160 steps")
+    assert rows["motion"] == "quasi-static, an equilibrium at every step"
+    assert rows["largest move"].endswith("mm beyond what was fed, between two records")
+    assert float(rows["largest move"].split()[0]) < 0.1
+    assert Result.load(folder / "out").motion == "quasi-static"
+
+
+def test_unstable_equilibrium_is_an_error(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    keys = ["solver.motion=quasi-static", "field.flux_density=['-20 mT', '0 mT', '0 mT']"]
+    keys += ["output.record_every=0.5 mm", "feed.distance=30 mm"]
+    assert main(["run", "straight", "--set", *keys, "--out", "out"]) == 1
+    seen = capsys.readouterr()
+    rows = rows_in(seen.out)
+    assert rows["status"] == "unstable"
+    assert rows["stable"] == "not at 1 of 50 records, first at a feed of 24.5 mm"
+    assert seen.err.startswith("The equilibrium at 24.5 mm of feed is unstable: ")
+    assert files_in(folder / "out") == FILES[:-1]
+
+
+def test_what_was_gained_is_said_in_the_end(finished: tuple[Path, str]) -> None:
+    out, said = finished
+    passive = Result.load(out / "result-none.nc")
+    peak, mean = (f"{1e3 * f:.3g} mN" for f in (passive.max_tip_force, passive.mean_tip_force))
+    assert list(rows_in(said))[-2:] == ["gained", "written to"]
+    assert (
+        rows_in(said)["gained"] == f"peak tip force from {peak} to none, mean from {mean} to none"
+    )
+
+
+def test_gain_over_a_shorter_way_says_so(compared: Path) -> None:
+    passive = Result.load(compared / "result-none.nc")
+    part = Result(passive.dataset.isel(time=slice(0, 101)))
+    assert gain(part, passive).endswith("; over 10 mm of 16")
 
 
 def test_comparison_needs_steering(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

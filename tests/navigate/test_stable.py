@@ -11,7 +11,8 @@ from magwire.engine import Feed
 from magwire.errors import InputError
 from magwire.lumen import Lumen
 from magwire.navigate import NavigationError, Observation, Prescribed, Schedule
-from magwire.navigate.stable import Demands, StableNavigator
+from magwire.navigate.demands import Demands
+from magwire.navigate.stable import StableNavigator
 from magwire.results import Result
 from magwire.simulation import Simulation
 from magwire.wire import Wire

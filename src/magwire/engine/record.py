@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Motion = Literal["dynamic", "quasi-static"]
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,8 @@ class RunInfo:
         The lumen as drawn: points, shape (q, 3) [m]; radius, shape (q,) [m]; branch, shape (q,).
     title, scenario
         Title, and the whole scenario as TOML ("" for a run that was set up in Python).
+    motion
+        How the wire moves: in time, or from one equilibrium to the next.
     """
 
     nodes: int
@@ -52,6 +56,7 @@ class RunInfo:
     lumen_branch: NDArray[np.int64]
     title: str = ""
     scenario: str = ""
+    motion: Motion = "dynamic"
 
 
 @dataclass(frozen=True)
@@ -110,6 +115,9 @@ class Record:
         Whether the tangent stiffness of the state is positive definite.
     totals
         Sums over all steps so far.
+    tip_departure
+        Distance of the tip from where the navigator's model has it, the largest since the record
+        before [m]; NaN if nobody compared.
     """
 
     time: float
@@ -124,3 +132,4 @@ class Record:
     newton_iterations: float
     stable: bool
     totals: Totals = field(default_factory=Totals)
+    tip_departure: float = float("nan")

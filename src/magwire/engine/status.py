@@ -24,11 +24,11 @@ class Status(IntEnum):
 _REMEDIES = {
     Status.CONVERGED: "Newton's method converged",
     Status.STALLED: (
-        "the line search found no lower energy; try a smaller time step or a nearer start, or, if "
+        "the line search found no lower energy; try smaller steps or a nearer start, or, if "
         "a wall force is large, a stiffer contact or a larger activation gap"
     ),
     Status.TOO_MANY_ITERATIONS: (
-        "Newton's method did not reach the tolerance; try a smaller time step or a nearer start, "
+        "Newton's method did not reach the tolerance; try smaller steps or a nearer start, "
         "or, if a wall force is large, a stiffer contact or a larger activation gap"
     ),
     Status.PENETRATING: (

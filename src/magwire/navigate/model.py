@@ -22,6 +22,7 @@ from magwire.navigate.schedule import Schedule
 
 Array = NDArray[np.float64]
 
+SAME = 1e-9  # feeds that differ by less are the same [m]
 GLANCE = 10  # steps between two looks at the tip while the wire moves
 
 
@@ -241,6 +242,11 @@ class Model:
         centre, along = curve.at(where)[0], curve.at(where, 1)[0, :3]
         axes = across(along)
         return axes, axes @ (tip * length - centre[:3]), float(centre[3])
+
+    def expected_tip(self, feed: float) -> Array | None:
+        """Position of the tip, shape (3,) [m], if the model is at this feed [m]; otherwise None."""
+        tip: Array = self._state.q[-1, :3] * self.system.wire.length
+        return tip if abs(self.feed - feed) < SAME else None
 
     def tube_force(self) -> Array:
         """Force of the virtual tube on the tip, shape (3,) [N] (P-19)."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.engine.system import System
 from magwire.errors import MagwireError
 from magwire.navigate.schedule import Schedule
 
@@ -51,6 +52,26 @@ class Navigator(Protocol):
         ------
         NavigationError
             If no field does what is asked for.
+        """
+        ...
+
+
+@runtime_checkable
+class Steering(Protocol):
+    """A way to steer that has no wire yet, and therefore no memory: it makes navigators."""
+
+    @property
+    def update_every(self) -> float:
+        """Feed between two observations [m]."""
+        ...
+
+    def start(self, system: System) -> Navigator:
+        """The navigator of one run of a system.
+
+        Raises
+        ------
+        InputError
+            If this system cannot be steered so.
         """
         ...
 

@@ -94,6 +94,10 @@ class PaperNavigator:
             self._optimise(until)
         return Schedule(np.array([until]), self.model.flux[None])
 
+    def expected_tip(self, feed: float) -> Array | None:
+        """Where the tip is at a feed [m] if all goes as planned, shape (3,) [m]; None if unknown."""
+        return self.model.expected_tip(feed)
+
     def _optimise(self, feed: float) -> None:
         """Algorithm 1, lines 3 to 13."""
         model, numbers = self.model, self.optimiser

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from magwire.engine.system import System
 from magwire.errors import InputError, positive
@@ -20,6 +21,8 @@ from magwire.navigate.pilot import Knot, Pilot, norm
 from magwire.navigate.programme import Programme
 from magwire.navigate.schedule import Schedule
 from magwire.navigate.swing import Swings
+
+Array = NDArray[np.float64]
 
 REFERENCE = 100.0  # field of order one, in EI/(M L^2)
 AHEAD = 0.1  # feed that the plan runs ahead, in the wire's length
@@ -92,6 +95,24 @@ class StableNavigator:
             raise self._failure
         weak = self.demands.weakening
         return Schedule.along([(knot.feed, knot.flux / weak) for knot in self._knots])
+
+    def expected_tip(self, feed: float) -> Array | None:
+        """Where the tip is at a feed [m] if all goes as planned, shape (3,) [m]; None if unknown."""
+        knots = sorted(self._knots, key=lambda knot: knot.feed)
+        feeds = [knot.feed for knot in knots]
+        if not feeds[0] - CLOSE <= feed <= feeds[-1] + CLOSE:
+            return None
+        tips = np.array([self._planned_tip(knot) for knot in knots])
+        return np.array([np.interp(feed, feeds, tips[:, c]) for c in range(3)])
+
+    def _planned_tip(self, knot: Knot) -> Array:
+        """The tip in the field that is planned, to first order from the weakest, shape (3,) [m]."""
+        tip: Array = knot.memory.state.q[-1, :3] * self._length
+        if knot.view is None:
+            return tip
+        stronger = knot.flux * (1.0 / self.demands.weakening - 1.0)
+        aside: Array = knot.view.axes.T @ (knot.view.offset_by_flux @ stronger)
+        return tip + aside
 
     def _begin(self, knot: Knot, back: bool) -> None:
         """Plan anew from a knot on."""

@@ -3,10 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
 
 from magwire.engine.dynamics import March
 from magwire.engine.record import Record
 from magwire.navigate.navigator import Navigator, Observation
+
+Array = NDArray[np.float64]
+
+
+@runtime_checkable
+class Modelled(Protocol):
+    """A navigator that knows where the tip should be."""
+
+    def expected_tip(self, feed: float) -> Array | None:
+        """Where the tip is at a feed [m] if all goes as planned, shape (3,) [m]; None if unknown."""
+        ...
 
 
 def steered_records(
@@ -37,15 +53,32 @@ def steered_records(
     """
     yield march.record()
     goal = float(march.feeds(march.steps).max())
+    seen, gone = observe(march), float("nan")
     while march.step < march.steps:
         if march.step % update == 0:
             feeds = march.feeds(march.step + update)
-            position, direction = march.tip()
-            seen = Observation(march.feed, position, direction, goal)
+            speed = float(feeds[-1] - seen.feed) / (len(feeds) * march.time_step)
+            seen = replace(seen, goal=goal, speed=speed)
             march.steer(navigator.plan(seen, float(feeds[-1])).at(feeds))
         step = min(every - march.step % every, update - march.step % update)
         converged = march.advance(step)
+        if march.step % update == 0 or march.step == march.steps:
+            seen = observe(march)
+            gone = float(np.fmax(gone, departure(navigator, seen)))
         if march.step % every == 0 or march.step == march.steps or not converged:
-            yield march.record()
+            yield replace(march.record(), tip_departure=gone)
+            gone = float("nan")
         if not converged:
             return
+
+
+def observe(march: March) -> Observation:
+    """What a navigator is told of the plant."""
+    position, direction = march.tip()
+    return Observation(march.feed, position, direction)
+
+
+def departure(navigator: Navigator, seen: Observation) -> float:
+    """Distance of the tip from where the navigator expects it [m]; NaN if it does not say."""
+    tip = navigator.expected_tip(seen.feed) if isinstance(navigator, Modelled) else None
+    return float("nan") if tip is None else float(np.linalg.norm(seen.tip - tip))

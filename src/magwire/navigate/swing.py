@@ -169,7 +169,7 @@ class Swings:
                 continue
             found.append(place)
             for near in neighbours(cell):
-                if near not in seen and SPACING * size * np.hypot(*near) <= room:
+                if near not in seen and SPACING * size * norm(np.array(near)) <= room:
                     seen.add(near)
                     waiting.append((near, place))
         return found

@@ -128,8 +128,11 @@ def _draw_shapes(panel: Any, data: xr.Dataset) -> None:
 
 
 def _title(data: xr.Dataset) -> str:
-    """Letter, title and, for a run that did not end well, how it ended."""
+    """Letter, title, motion unless it is dynamic and, for a run that ended early, how."""
     title = str(data.attrs.get("title", ""))
+    motion = str(data.attrs.get("motion", "dynamic"))
+    if motion != "dynamic":
+        title = f"{title}, {motion}" if title else motion
     status = str(data.attrs.get("status", "complete"))
     push = data["normalized_push"].values
     if status != "complete" and push.size:

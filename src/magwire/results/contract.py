@@ -78,6 +78,13 @@ VARIABLES: dict[str, Variable] = {
     "tip_offset": Variable(
         ("time",), "m", "distance of the tip from the centreline", lambda r, _: r.tip_offset
     ),
+    "tip_departure": Variable(
+        ("time",),
+        "m",
+        "distance of the tip from where the navigator's model has it, "
+        "largest since the record before",
+        lambda r, _: r.tip_departure,
+    ),
     "newton_iterations": Variable(
         ("time",),
         "1",
@@ -144,6 +151,7 @@ def opening_attributes(info: RunInfo, version: str) -> dict[str, Any]:
         "source": f"magwire {version}",
         "magwire_version": version,
         "scenario": info.scenario,
+        "motion": info.motion,
         "length_scale": float(info.scales.length),
         "force_scale": float(info.scales.force),
         "field_scale": float(info.scales.flux_density),

@@ -100,7 +100,7 @@ class Result:
     def status(self) -> str:
         """How it ended, or "running".
 
-        "complete", "not converged", "no field", "interrupted" or "failed".
+        "complete", "not converged", "unstable", "no field", "interrupted" or "failed".
         """
         return str(self.dataset.attrs["status"])
 
@@ -108,6 +108,11 @@ class Result:
     def message(self) -> str:
         """Why it ended so; "" for a complete run."""
         return str(self.dataset.attrs["message"])
+
+    @property
+    def motion(self) -> str:
+        """How the wire moved: in time, "dynamic"; or by equilibria, "quasi-static"."""
+        return str(self.dataset.attrs["motion"])
 
     @property
     def converged(self) -> bool:
@@ -158,6 +163,25 @@ class Result:
     def largest_tip_offset(self) -> float:
         """Largest distance of the tip from the centreline over all records [m]."""
         return float(np.max(self.tip_offset, initial=0.0))
+
+    @property
+    def largest_tip_departure(self) -> float:
+        """Largest distance of the tip from where the navigator's model has it [m].
+
+        NaN if nobody steered, or the navigator has no model.
+        """
+        known = self.tip_departure[np.isfinite(self.tip_departure)]
+        return float(known.max()) if known.size else float("nan")
+
+    @property
+    def largest_move(self) -> float:
+        """Largest way of a node from one record to the next, beyond what was fed [m].
+
+        In quasi-static motion much of it in one go is a wire that snaps: where it ends is one
+        equilibrium of several, and only dynamic motion tells which a wire finds.
+        """
+        moves = np.linalg.norm(np.diff(self.position, axis=0), axis=2).max(axis=1, initial=0.0)
+        return float(np.max(moves - np.abs(np.diff(self.feed)), initial=0.0))
 
     @property
     def peak_field(self) -> float:
@@ -224,6 +248,19 @@ class Result:
     def tip_offset(self) -> Array:
         """Distance of the tip from the centreline, shape (t,) [m]."""
         return self._array("tip_offset")
+
+    @property
+    def tip_departure(self) -> Array:
+        """Distance of the tip from where the navigator's model has it, shape (t,) [m].
+
+        The largest since the record before; NaN where nobody compared.
+        """
+        return self._array("tip_departure")
+
+    @property
+    def stable(self) -> NDArray[np.bool_]:
+        """Whether the tangent stiffness is positive definite, shape (t,)."""
+        return self._array("stable") > 0.0
 
     @property
     def normalized_push(self) -> Array:

@@ -99,7 +99,7 @@ class Writer:
         Parameters
         ----------
         status
-            "complete", "not converged", "interrupted" or "failed".
+            "complete", "not converged", "unstable", "no field", "interrupted" or "failed".
         message
             One sentence on why, "" if the run is complete.
         """

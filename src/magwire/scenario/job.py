@@ -96,6 +96,7 @@ class Job:
         return self.simulation.run(
             self.feed,
             navigate.build(self.simulation),
+            motion=self.scenario.solver.motion,
             update_every=navigate.interval,
             time_step=self.time_step,
             record_every=self.record_every,

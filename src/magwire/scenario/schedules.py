@@ -105,7 +105,7 @@ def replayed(
     scale: float = 1.0,
     resample: float | None = None,
 ) -> Scenario:
-    """The scenario of a result, steered by the field that the result recorded.
+    """The scenario of a result in dynamic motion, steered by the field that the result recorded.
 
     Parameters
     ----------
@@ -137,6 +137,7 @@ def replayed(
         schedule = schedule.resampled(positive("replayed", "resample", resample, "m"))
     raw = tomllib.loads(result.scenario)
     raw["navigate"] = {"method": "schedule", "table": rows_of(schedule)}
+    raw.setdefault("solver", {})["motion"] = "dynamic"  # where a schedule proves itself (P-23)
     return parse(tomli_w.dumps(raw), overrides, source="of the result")
 
 

@@ -269,6 +269,7 @@ class TabledFeed(Table):
 class SolverTable(Table):
     """How the motion is computed."""
 
+    motion: Literal["dynamic", "quasi-static"] = "dynamic"
     time_step: Time = preset("10 ms")
     damping: Rate = preset("0.01 1/s")
     release: Literal["sliding", "node"] = "sliding"
