@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 _HOMES: dict[str, tuple[str, str]] = {
     "Barrier": ("magwire.contact", "Barrier"),
     "ConvergenceError": ("magwire.errors", "ConvergenceError"),
-    "Demands": ("magwire.navigate.stable", "Demands"),
+    "Demands": ("magwire.navigate.demands", "Demands"),
     "Equilibrium": ("magwire.engine.statics", "Equilibrium"),
     "Feed": ("magwire.engine.feed", "Feed"),
     "GradientField": ("magwire.field", "GradientField"),

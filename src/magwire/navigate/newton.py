@@ -62,7 +62,7 @@ class NewtonNavigator:
         return self.model.plan(until, self.plan_every, self._go_to)
 
     def expected_tip(self, feed: float) -> Array | None:
-        """Where the tip is at a feed [m] if all goes as planned, shape (3,) [m]; None if unknown."""
+        """Where the tip should be at a feed [m], shape (3,) [m]; None if that is not known."""
         return self.model.expected_tip(feed)
 
     def _go_to(self, feed: float) -> None:

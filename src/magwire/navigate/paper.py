@@ -95,7 +95,7 @@ class PaperNavigator:
         return Schedule(np.array([until]), self.model.flux[None])
 
     def expected_tip(self, feed: float) -> Array | None:
-        """Where the tip is at a feed [m] if all goes as planned, shape (3,) [m]; None if unknown."""
+        """Where the tip should be at a feed [m], shape (3,) [m]; None if that is not known."""
         return self.model.expected_tip(feed)
 
     def _optimise(self, feed: float) -> None:

@@ -97,22 +97,13 @@ class StableNavigator:
         return Schedule.along([(knot.feed, knot.flux / weak) for knot in self._knots])
 
     def expected_tip(self, feed: float) -> Array | None:
-        """Where the tip is at a feed [m] if all goes as planned, shape (3,) [m]; None if unknown."""
-        knots = sorted(self._knots, key=lambda knot: knot.feed)
-        feeds = [knot.feed for knot in knots]
-        if not feeds[0] - CLOSE <= feed <= feeds[-1] + CLOSE:
+        """Where the tip should be at a feed [m], shape (3,) [m]; None between planned fields."""
+        knot = next((knot for knot in self._knots if abs(knot.feed - feed) < CLOSE), None)
+        if knot is None:
             return None
-        tips = np.array([self._planned_tip(knot) for knot in knots])
-        return np.array([np.interp(feed, feeds, tips[:, c]) for c in range(3)])
-
-    def _planned_tip(self, knot: Knot) -> Array:
-        """The tip in the field that is planned, to first order from the weakest, shape (3,) [m]."""
-        tip: Array = knot.memory.state.q[-1, :3] * self._length
-        if knot.view is None:
-            return tip
-        stronger = knot.flux * (1.0 / self.demands.weakening - 1.0)
-        aside: Array = knot.view.axes.T @ (knot.view.offset_by_flux @ stronger)
-        return tip + aside
+        self.model.return_to(knot.memory)
+        self.model.settle(knot.flux / self.demands.weakening)
+        return self.model.expected_tip(feed)
 
     def _begin(self, knot: Knot, back: bool) -> None:
         """Plan anew from a knot on."""

@@ -21,7 +21,7 @@ class Modelled(Protocol):
     """A navigator that knows where the tip should be."""
 
     def expected_tip(self, feed: float) -> Array | None:
-        """Where the tip is at a feed [m] if all goes as planned, shape (3,) [m]; None if unknown."""
+        """Where the tip should be at a feed [m], shape (3,) [m]; None if that is not known."""
         ...
 
 
