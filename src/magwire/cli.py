@@ -31,6 +31,7 @@ COLUMN = 20
 
 Folder = Annotated[Path | None, Parameter(help="Folder for the output.")]
 Force = Annotated[bool, Parameter(negative="", help="Overwrite what is there.")]
+Names = Annotated[list[str] | None, Parameter(consume_multiple=True)]
 Overrides = Annotated[list[str] | None, Parameter(name="--set", consume_multiple=True)]
 
 app = App(
@@ -211,6 +212,77 @@ def replay(
     return carry_out(described, folder, force=force)
 
 
+@app.command
+def reproduce(*, only: Names = None, out: Folder = None, force: Force = False) -> int:
+    """Run the paper's cases: figures, and what it says next to what magwire finds.
+
+    Parameters
+    ----------
+    only
+        Parts of the page: setup, passive, half-circle, sinusoid, helix, branches, authors, speed.
+    out
+        Folder for reproduce.html, reproduce.md and images; reproduce in the working folder if left
+        out.
+    force
+        Overwrite what a former run left in the folder.
+    """
+    from magwire.progress import pieces
+    from magwire.reproduce import report
+
+    names = report.chosen(only)
+    folder = out or Path("reproduce")
+    check_free(folder, force=force)
+    say_if_compiling()
+    with writing_to(folder), pieces(len(report.asks(names)) + len(names)) as begin:
+        chapters = report.reproduce(folder, names, watch=begin)
+    for chapter in chapters:
+        for text in chapter.broken:
+            complain(text)
+    say(f"{'written to':{COLUMN}}{folder / report.PAGE}")
+    return 1 if any(chapter.broken for chapter in chapters) else 0
+
+
+@app.command
+def animate(
+    result: Path,
+    /,
+    *,
+    out: Path | None = None,
+    width: int = 1280,
+    seconds: float = 12.0,
+    force: Force = False,
+) -> None:
+    """Make a moving picture of a result: the wire in its lumen, the field and the tip force.
+
+    Parameters
+    ----------
+    result
+        Result file, or the folder that holds it.
+    out
+        File to write, .gif or .mp4 by its suffix; animation.gif next to the result if left out.
+    width
+        Of the picture, in pixels.
+    seconds
+        How long it takes.
+    force
+        Overwrite the file.
+    """
+    from magwire.plot import animation
+    from magwire.progress import pieces
+    from magwire.results import Result
+
+    data = Result.load(result).dataset
+    file = out or (result if result.is_dir() else result.parent) / "animation.gif"
+    if file.exists() and not force:
+        raise CommandError(f"File '{file}' exists already; use --force to overwrite it.")
+    rate = 25 if file.suffix.lower() == ".mp4" else 12
+    with writing_to(file.parent), pieces(round(seconds * rate)) as begin:
+        animation.animate(
+            data, file, width=width, seconds=seconds, rate=rate, watch=lambda *_: begin("frames")
+        )
+    say(str(file))
+
+
 def carry_out(
     described: Scenario, folder: Path, *, compare: bool = False, force: bool = False
 ) -> int:
@@ -256,16 +328,22 @@ def outcome(result: Result | None) -> int:
 
 def simulate(job: Job, file: Path) -> Result | None:
     """Run a job with a progress bar; None if it was interrupted before its first record."""
-    from magwire.kernels._jit import compiled_before
     from magwire.results import Result
 
-    if not compiled_before():
-        complain("Compiling for this machine; this happens once and takes about half a minute.")
+    say_if_compiling()
     with progress(job.feed.duration) as show:
         try:
             return job.run(file, watch=show)
         except KeyboardInterrupt:  # the file says "interrupted" by now
             return Result.load(file) if file.exists() else None
+
+
+def say_if_compiling() -> None:
+    """Say why nothing happens, the first time."""
+    from magwire.kernels._jit import compiled_before
+
+    if not compiled_before():
+        complain("Compiling for this machine; this happens once and takes about half a minute.")
 
 
 @contextmanager
