@@ -17,6 +17,8 @@ import magwire
 from magwire.errors import MagwireError
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from magwire.engine.record import Record
     from magwire.results import Result
     from magwire.scenario import Scenario
@@ -122,8 +124,7 @@ def plot(result: Path, /, *, out: Folder = None, force: Force = False) -> None:
 
     data = Result.load(result)
     beside = result if result.is_dir() else result.parent
-    compared = (result.is_dir() or result.name == RESULT) and (beside / PASSIVE).exists()
-    passive = Result.load(beside / PASSIVE).dataset if compared else None
+    passive = passive_beside(result)
     folder = out or beside
     if folder.exists() and not folder.is_dir():
         raise CommandError(f"Output folder '{folder}' is a file.")
@@ -248,7 +249,7 @@ def animate(
     /,
     *,
     out: Path | None = None,
-    width: int = 1280,
+    width: int = 960,
     seconds: float = 12.0,
     force: Force = False,
 ) -> None:
@@ -272,15 +273,32 @@ def animate(
     from magwire.results import Result
 
     data = Result.load(result).dataset
-    file = out or (result if result.is_dir() else result.parent) / "animation.gif"
+    beside = result if result.is_dir() else result.parent
+    passive = passive_beside(result)
+    file = out or beside / "animation.gif"
     if file.exists() and not force:
         raise CommandError(f"File '{file}' exists already; use --force to overwrite it.")
     rate = 25 if file.suffix.lower() == ".mp4" else 12
     with writing_to(file.parent), pieces(round(seconds * rate)) as begin:
         animation.animate(
-            data, file, width=width, seconds=seconds, rate=rate, watch=lambda *_: begin("frames")
+            data,
+            file,
+            passive=passive,
+            width=width,
+            seconds=seconds,
+            rate=rate,
+            watch=lambda *_: begin("frames"),
         )
     say(str(file))
+
+
+def passive_beside(result: Path) -> xr.Dataset | None:
+    """The run without steering that was made with a result, if there is one."""
+    from magwire.results import Result
+
+    beside = result if result.is_dir() else result.parent
+    compared = (result.is_dir() or result.name == RESULT) and (beside / PASSIVE).exists()
+    return Result.load(beside / PASSIVE).dataset if compared else None
 
 
 def carry_out(

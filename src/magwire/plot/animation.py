@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Callable, Iterator
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Frame = NDArray[np.uint8]
 
-ARROW = 0.28
+ARROW = 0.2
 """Length of the arrow of the largest field, over the largest extent of the lumen."""
 WIRE, TIP = "#4c6272", "#111111"
 
@@ -37,7 +38,8 @@ def animate(
     data: xr.Dataset,
     path: str | Path,
     *,
-    width: int = 1280,
+    passive: xr.Dataset | None = None,
+    width: int = 960,
     seconds: float = 12.0,
     rate: int = 25,
     watch: Callable[[int, int], None] = lambda frame, frames: None,
@@ -51,6 +53,8 @@ def animate(
     path
         File to write, GIF or MP4 by its suffix; an existing one is overwritten. MP4 needs
         ``imageio-ffmpeg``.
+    passive
+        A run that nobody steered, whose tip force is shown for comparison.
     width
         Of the picture [pixels]; its height is 9/16 of it.
     seconds
@@ -82,7 +86,7 @@ def animate(
 
     def pictures() -> Iterator[Frame]:
         with mpl.rc_context(style.RC):
-            scene = Scene(data, size)
+            scene = Scene(data, size, passive)
             for done, record in enumerate(chosen, start=1):
                 yield scene.frame(int(record))
                 watch(done, frames)
@@ -94,7 +98,9 @@ def animate(
 class Scene:
     """What stays from frame to frame, drawn once, and what moves over it."""
 
-    def __init__(self, data: xr.Dataset, size: tuple[int, int]) -> None:
+    def __init__(
+        self, data: xr.Dataset, size: tuple[int, int], passive: xr.Dataset | None = None
+    ) -> None:
         self.push = data["normalized_push"].values
         self.force = data["normalized_tip_force"].values
         self.nodes = 1e3 * data["position"].values
@@ -106,17 +112,18 @@ class Scene:
         self.figure: Any = Figure(figsize=(size[0] / dpi, size[1] / dpi), dpi=dpi)
         self.canvas: Any = FigureCanvasAgg(self.figure)
         self._lumen(data)
-        self._curve(data)
+        self._curve(data, passive)
         self.magnet = magnetised(data)
         self.lines = [
             self.ax.plot(*self._flat(self.nodes[0]), color=colour, linewidth=width, zorder=5)[0]
             for colour, width in ((WIRE, 1.8), (TIP, 3.0))
         ]
-        self.arrow = FancyArrowPatch(
-            (0, 0), (0, 0), color=style.CLEARANCE, linewidth=1.6, mutation_scale=9, zorder=6
+        self.arrow = FancyArrowPatch(  # in the plane of the picture, of 3D axes too
+            (0, 0), (0, 0), color=style.CLEARANCE, linewidth=1.6, mutation_scale=9
         )
-        self.ax.add_artist(self.arrow)
-        self.moving = [*self.lines, self.arrow, self.grown, self.dot, self.words]
+        self.arrow.set_figure(self.figure)
+        self.arrow.set_transform(self.ax.transData)
+        self.moving = [*self.lines, self.grown, self.dot, self.words]
         self.still = self._background()
 
     def _background(self) -> Any:
@@ -144,8 +151,8 @@ class Scene:
             f"t = {self.time[record]:5.1f} s     fed {self.feed[record]:5.1f} mm     "
             f"field {strength:5.1f} mT"
         )
-        for artist in self.moving:
-            artist.axes.draw_artist(artist) if artist.axes else self.figure.draw_artist(artist)
+        for artist in (*self.moving, self.arrow):
+            artist.draw(self.canvas.get_renderer())
         return np.asarray(self.canvas.buffer_rgba())[..., :3].copy()
 
     def _point(self, record: int) -> None:
@@ -183,20 +190,26 @@ class Scene:
         self.figure.text(0.02, 0.955, title, fontsize=9.5, fontweight="bold", va="center")
         self.words = self.figure.text(0.98, 0.955, "", ha="right", va="center")
 
-    def _curve(self, data: xr.Dataset) -> None:
+    def _curve(self, data: xr.Dataset, passive: xr.Dataset | None) -> None:
         ax = self.figure.add_axes((0.66, 0.17, 0.26, 0.66))
         top = float(np.nanmax(self.force, initial=0.0))
+        if passive is not None:
+            push, force = (passive[f"normalized_{name}"].values for name in ("push", "tip_force"))
+            ax.plot(push, force, color=style.PASSIVE, label="not steered")
+            top = max(top, float(np.nanmax(force, initial=0.0)))
         ax.set_xlim(0.0, float(self.push.max()) or 1.0)
-        ax.set_ylim(0.0, 1.15 * top or 1.0)
+        ax.set_ylim(0.0, 1.25 * top or 1.0)
         ax.set_xlabel(curves.PUSH_LABEL)
         ax.set_title(r"tip force  $\mathcal{F}$", loc="left")
         curves.second_axis(ax, 1e3 * float(data.attrs["force_scale"]), "[mN]")
-        ax.plot(self.push, self.force, color=style.GRID, linewidth=1.0)
-        (self.grown,) = ax.plot([], [], color=style.FORCE, clip_on=False)
+        ax.plot(self.push, self.force, color=style.GRID, linewidth=1.0, zorder=1)
+        (self.grown,) = ax.plot([], [], color=style.FORCE, clip_on=False, label="this run")
         (self.dot,) = ax.plot([], [], "o", color=style.FORCE, markersize=4, clip_on=False)
-        if top == 0.0:
+        if passive is not None:
+            ax.legend(loc="upper left", ncols=2, handlelength=1.0, columnspacing=1.0)
+        elif top == 0.0:
             ax.text(
-                0.5, 0.55, "the tip never touches\nthe wall", transform=ax.transAxes,
+                0.5, 0.4, "the tip never touches\nthe wall", transform=ax.transAxes,
                 ha="center", color=style.MUTED, fontstyle="italic",
             )  # fmt: skip
 
@@ -230,10 +243,13 @@ def _write_gif(path: Path, frames: Iterator[Frame], size: tuple[int, int], rate:
     # One palette for all frames: what stands still then costs next to nothing.
     first = next(images)
     rest = list(images)
-    both = Image.new("RGB", (size[0], 2 * size[1]))
-    both.paste(rest[len(rest) // 2], (0, 0))
-    both.paste(rest[-1], (0, size[1]))
-    palette = both.quantize(64, dither=Image.Dither.NONE)
+    sample = Image.new("RGB", (size[0], 2 * size[1]))
+    sample.paste(rest[len(rest) // 2], (0, 0))
+    for k, colour in enumerate((WIRE, TIP, style.CLEARANCE, style.FORCE)):  # thin as they are
+        sample.paste(
+            Image.new("RGB", (size[0], size[1] // 4), colour), (0, size[1] + k * size[1] // 4)
+        )
+    palette = sample.quantize(64, dither=Image.Dither.NONE)
     flat = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in (first, *rest)]
     duration = [round(1000 / rate)] * (len(flat) - 1) + [1500]
     flat[0].save(
@@ -249,12 +265,16 @@ def _write_mp4(path: Path, frames: Iterator[Frame], size: tuple[int, int], rate:
             "MP4 needs the package imageio-ffmpeg, which is not installed; "
             "install it with 'pip install magwire[movie]', or ask for a .gif."
         ) from None
+    first = next(frames)
     writer = imageio_ffmpeg.write_frames(
         str(path), size, fps=rate, codec="libx264", quality=7, macro_block_size=16
     )
     writer.send(None)
     try:
-        for frame in frames:
+        for frame in chain([first], frames):
             writer.send(np.ascontiguousarray(frame))
-    finally:
+    except BaseException:
         writer.close()
+        path.unlink(missing_ok=True)
+        raise
+    writer.close()

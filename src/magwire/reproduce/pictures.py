@@ -117,6 +117,8 @@ def draw_shape(
     if pair is None:
         ax = figure.add_subplot(place, projection="3d", computed_zorder=False)
         shapes.draw_spatial(ax, data, until=until)
+        low, high = shapes.window(data)  # wide things may be larger, tall ones lose their labels
+        ax.set_box_aspect(high - low, zoom=1.1 if len(shapes.branches(data)) > 1 else 0.88)
     else:
         ax = figure.add_subplot(place)
         shapes.draw_planar(ax, data, pair, until=until)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from magwire.reproduce import active_claims, passive_claims, pictures, tables
 from magwire.reproduce.chapter import Chapter, Part, why
@@ -12,6 +13,9 @@ from magwire.reproduce.claim import Claim
 from magwire.reproduce.outcome import Outcome
 from magwire.reproduce.page import Picture
 from magwire.reproduce.runs import METHODS, REPLAYS, Ask, Run, Runs
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 BRANCHES = ("left", "middle", "right")
 ANIMATED = "half-circle"
@@ -81,7 +85,7 @@ def write_case(scenario: str, claims: Claims, runs: Runs, images: Path) -> Chapt
         ),
     ]
     if scenario == ANIMATED:
-        chapter.blocks.append(animated(made["stable"], images))
+        chapter.blocks.append(animated(made["stable"], passive.dataset, images))
     outcomes = {name: run.outcome for name, run in made.items()}
     chapter.claims = claims(runs, outcomes, radius(runs, scenario))
     settle(chapter, scenario, runs)
@@ -159,11 +163,12 @@ def stops(made: Mapping[str, Run], before: str = "") -> list[str]:
     return [text[:1].upper() + text[1:] for text in words]
 
 
-def animated(run: Run, images: Path) -> Picture:
+def animated(run: Run, passive: xr.Dataset, images: Path) -> Picture:
     """A small moving picture of a navigation."""
     from magwire.plot.animation import animate
 
-    animate(run.result.dataset, images / "navigation.gif", width=720, seconds=8.0, rate=12)
+    file = images / "navigation.gif"
+    animate(run.result.dataset, file, passive=passive, width=720, seconds=8.0, rate=12)
     return Picture(
         "images/navigation.gif",
         f"The {ANIMATED} steered by the least field: the magnetised tip is dark, the arrow is the "
