@@ -239,7 +239,7 @@ def reproduce(*, only: Names = None, out: Folder = None, force: Force = False) -
     for chapter in chapters:
         for text in chapter.broken:
             complain(text)
-    say(f"{'written to':{COLUMN}}{folder / report.PAGE}")
+    say(str(folder / report.PAGE))
     return 1 if any(chapter.broken for chapter in chapters) else 0
 
 

@@ -126,9 +126,15 @@ def test_forces_are_compared_as_far_as_both_go() -> None:
     )
     assert (lumen, tube, end) == ("bend", "planner only", "0.360 (stops)")
     milli = 1e3 * UNIT
-    assert peak == f"{36 * milli:.3g} → {milli:.3g} (-97 %)"
-    assert impulse == f"{0.5 * 36 * 36 * milli:.3g} → {36 * milli:.3g} (-94 %)"
-    assert whole == f"{72 * milli:.3g} → {2 * milli:.3g} (-97 %)"
+    assert peak == f"{36 * milli:.3g} → {milli:.3g} (-97\u00a0%)"
+    assert impulse == f"{0.5 * 36 * 36 * milli:.3g} → {36 * milli:.3g} (-94\u00a0%)"
+    assert tables.reduction_rows("bend", passive, {"stable": outcome(0.01)})[0][4].endswith(
+        "(-99.9\u00a0%)"
+    )
+    assert tables.reduction_rows("bend", passive, {"stable": outcome(0.0)})[0][4].endswith(
+        "→ 0 (-100\u00a0%)"
+    )
+    assert whole == f"{72 * milli:.3g} → {2 * milli:.3g} (-97\u00a0%)"
 
 
 def test_fates_of_replays() -> None:

@@ -81,7 +81,8 @@ def contact_interactions(run: Outcome) -> Claim:
         "Half-circle, (C)",
         "The nonlinearity comes from the coupling of elasticity and magnetic torque and from "
         "non-smooth contact.",
-        f"With the paper's optimiser the wall bears {1e3 * force:.3g} mN at most from all nodes.",
+        f"With the paper's optimiser the whole wire presses on the wall with "
+        f"{1e3 * force:.3g} mN at most.",
         judged(force > 0.0, fair=True),
         "there is contact"
         if force > 0.0

@@ -35,7 +35,7 @@ def touches(run: Outcome, first_contact: float | None) -> Claim:
         if found
         else "The wire never touches.",
         judged(found),
-        "contact in every lumen that bends",
+        "forces of the wall in this run",
     )
 
 
@@ -83,8 +83,8 @@ def second_peak(run: Outcome) -> Claim:
         "There F* increases significantly to 40.",
         f"F* = {peak:.1f} at most past X = 0.5.",
         judged(abs(peak - 40.0) < 2.0, abs(peak - 40.0) < 10.0),
-        f"{100.0 * (peak / 40.0 - 1.0):+.0f} %; yes if within 5 %, partly if within 25 %: "
-        "hard contact gives 45.1",
+        f"{100.0 * (peak / 40.0 - 1.0):+.0f} %; yes if within 5 %, partly if within 25 %; an "
+        "independent calculation with a hard wall gives 45.1",
     )
 
 

@@ -20,7 +20,7 @@ def moment(per_length: float) -> Claim:
     return Claim(
         "Setup",
         "The remanent magnetisation of the tip is 0.1448 A·m.",
-        f"128 kA/m over the section of 0.6 mm radius: {per_length:.4f} A·m per metre of wire.",
+        f"128 kA/m over the section of 0.6 mm radius: {per_length:.4f} A·m² per metre of wire.",
         judged(abs(per_length - 0.1448) < 5e-4),
         "the unit makes it a moment per length; as a magnetisation it would be A/m",
     )

@@ -126,8 +126,8 @@ def unsteered(runs: Runs) -> str:
 
 
 def radius(runs: Runs, scenario: str) -> float:
-    """Of the lumen [m]."""
-    return float(runs[Ask(scenario)].result.dataset["lumen_radius"].values.min())
+    """Of the lumen at its entrance [m]."""
+    return float(runs[Ask(scenario)].result.dataset["lumen_radius"].values[0])
 
 
 def settle(chapter: Chapter, scenario: str, runs: Runs) -> None:

@@ -88,7 +88,13 @@ def _impulse(run: Outcome, *, tip: bool) -> float:
 
 def _change(before: float, after: float) -> str:
     numbers = f"{_milli(before)} → {_milli(after)}"
-    return f"{numbers} ({100.0 * (after / before - 1.0):+.0f} %)" if before > 0.0 else numbers
+    if before == 0.0:
+        return numbers
+    change = 100.0 * (after / before - 1.0)
+    if after > 0.0:  # -100 % is said of nothing but zero
+        change = max(change, -99.9)
+    digits = 1 if -100.0 < change < -99.0 else 0
+    return f"{numbers} ({change:+.{digits}f}\u00a0%)"
 
 
 def _milli(newtons: float) -> str:
