@@ -10,6 +10,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.reproduce.authors import curve
+
 DATA = Path(__file__).parent / "data"
 AUTHORS = files("magwire.reproduce").joinpath("curves")
 Array = NDArray[np.float64]
@@ -31,12 +33,8 @@ def critical_load(case: str) -> float:
     return float(rows[0][1])
 
 
-@lru_cache
-def figure(name: str, series: str) -> Array:
-    """The numbers of one series of a file of the authors' curves, shape (n, columns)."""
-    with AUTHORS.joinpath(f"{name}.csv").open(encoding="utf-8") as file:
-        rows = [row[1:] for row in csv.reader(file) if row[0] == series]
-    return np.array(rows, dtype=np.float64)
+figure = lru_cache(curve)
+"""The numbers of one series of a file of the authors' curves, shape (n, columns)."""
 
 
 @lru_cache

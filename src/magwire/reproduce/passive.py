@@ -6,9 +6,10 @@ from pathlib import Path
 
 from magwire.reproduce import authors, passive_claims, pictures, setup_claims
 from magwire.reproduce.chapter import Chapter, Part
+from magwire.reproduce.claim import Claim
 from magwire.reproduce.overlay import overlay, shape
 from magwire.reproduce.page import Picture
-from magwire.reproduce.runs import Ask, Runs
+from magwire.reproduce.runs import Ask, Run, Runs
 
 HALF_CIRCLES = {
     "2R/L = 0.04": Ask("half-circle-narrow"),
@@ -118,9 +119,17 @@ def write_authors(runs: Runs, images: Path) -> Chapter:
             "magwire (lines). Of the field only the component across the tip is determined.",
         ),
     ]
+    chapter.claims = authors_claims(found)
+    chapter.expect_complete(AUTHORS.asks, runs)
+    return chapter
+
+
+def authors_claims(found: dict[str, Run]) -> list[Claim]:
+    """Curves, shapes and field of the authors against ours."""
+    claims: list[Claim] = []
     for name in ("half-circle", "sinusoid"):
         without = authors.curve(f"control_{name.replace('-', '')}_force", "blue_triangle")
-        chapter.claims.append(
+        claims.append(
             passive_claims.authors_force(
                 name.capitalize(), found[name].outcome, without, authors.ENTRY
             )
@@ -130,17 +139,16 @@ def write_authors(runs: Runs, images: Path) -> Chapter:
         for drawing, name in (("planar_case1", "narrow bend"), ("planar_case3", "half-circle"))
         for push, line in authors.drawn_shapes(drawing)
     ]
-    chapter.claims.append(passive_claims.authors_shapes(distances))
+    claims.append(passive_claims.authors_shapes(distances))
     push, field = authors.field()
     within = (push > 0.1) & (push < 0.35)
     ours = found["steered"].outcome.field_at(push[within] + authors.ENTRY)
-    chapter.claims.append(
+    claims.append(
         passive_claims.authors_field(
             authors.across(push[within], field[within]), authors.across(push[within], ours)
         )
     )
-    chapter.expect_complete(AUTHORS.asks, runs)
-    return chapter
+    return claims
 
 
 SETUP = Part((HALF_CIRCLE, FAST, *FINER.values()), write_setup)

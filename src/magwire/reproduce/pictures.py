@@ -202,44 +202,49 @@ def speed(
     with mpl.rc_context(style.RC):
         figure = canvas(85.0)
         left, right = figure.subplots(1, 2)
-        names = list(dict.fromkeys(lumen for lumen, _ in steps))
-        for k, name in enumerate(names):
-            line = sorted((dt, run.pace) for (lumen, dt), run in steps.items() if lumen == name)
-            left.plot(
-                *zip(*line, strict=True), marker="osD^v"[k % 5], markersize=3.5, label=name,
-                color=(*style.COMPONENTS, style.TIP, style.MUTED)[k % 5],
-            )  # fmt: skip
-        left.axvline(0.003, color=style.MUTED, linewidth=0.7, linestyle=":")
-        left.set_xlabel(r"time step  $dt$  [s]")
-        left.set_title("passive pushing", loc="left")
-        for (name, method), colour in _pairs(updates):
-            made = {s: r for (n, m, s), r in updates.items() if (n, m) == (name, method)}
-            push = sorted(made)
-            right.plot(push, [made[s][0].pace for s in push], color=colour, linewidth=1.1)
-            right.plot(push, [made[s][1] for s in push], color=colour, linewidth=0.7, ls="--")
-            for step, (run, _) in made.items():
-                face = colour if run.contact_free else "white"
-                right.plot(
-                    step, run.pace, MARKERS[name], mfc=face, mec=colour, markersize=4.2, zorder=4
-                )
-        right.axvline(0.005, color=style.MUTED, linewidth=0.7, linestyle=":")
-        right.set_xlabel(r"update step  $\delta\mathcal{X}$")
-        right.set_title("steered, dt = 10 ms", loc="left")
-        _speed_key(right)
-        for ax, where in ((left, "the paper is at 1 here"), (right, "the paper is at 1 here")):
+        _time_steps(left, steps)
+        _update_steps(right, updates)
+        for ax, known in ((left, 0.003), (right, 0.005)):
             ax.set(xscale="log", yscale="log", ylabel="computing time / simulated time")
             ax.axhline(1.0, color=style.INK, linewidth=0.8)
-            ax.set_ylim(1e-4 if ax is right else None, 3.0)
-            line_at = 0.003 if ax is left else 0.005
+            ax.axvline(known, color=style.MUTED, linewidth=0.7, linestyle=":")
+            ax.set_ylim(None, 3.0)
             ax.annotate(
-                where, (line_at, 1.0), xytext=(4, 4), textcoords="offset points", fontsize=6.5
-            )
-        left.legend(loc="lower left")
+                "the paper is at 1 here", (known, 1.0), xytext=(4, 4), textcoords="offset points",
+                fontsize=6.5,
+            )  # fmt: skip
+        right.set_ylim(1e-4, None)
         save(figure, file)
 
 
-def _pairs(updates: Mapping[tuple[str, str, float], Any]) -> list[tuple[tuple[str, str], str]]:
-    return [(pair, COLOURS[pair[1]]) for pair in dict.fromkeys((n, m) for n, m, _ in updates)]
+def _time_steps(ax: Axes, steps: Mapping[tuple[str, float], Outcome]) -> None:
+    colours = (*style.COMPONENTS, style.TIP, style.MUTED)
+    for k, name in enumerate(dict.fromkeys(lumen for lumen, _ in steps)):
+        line = sorted((dt, run.pace) for (lumen, dt), run in steps.items() if lumen == name)
+        ax.plot(
+            *zip(*line, strict=True), marker="osD^v"[k % 5], color=colours[k % 5], markersize=3.5,
+            label=name,
+        )  # fmt: skip
+    ax.set_xlabel(r"time step  $dt$  [s]")
+    ax.set_title("passive pushing", loc="left")
+    ax.legend(loc="lower left")
+
+
+def _update_steps(
+    ax: Axes, updates: Mapping[tuple[str, str, float], tuple[Outcome, float]]
+) -> None:
+    for name, method in dict.fromkeys((n, m) for n, m, _ in updates):
+        colour = COLOURS[method]
+        made = {s: r for (n, m, s), r in updates.items() if (n, m) == (name, method)}
+        push = sorted(made)
+        ax.plot(push, [made[s][0].pace for s in push], color=colour, linewidth=1.1)
+        ax.plot(push, [made[s][1] for s in push], color=colour, linewidth=0.7, ls="--")
+        for step, (run, _) in made.items():
+            face = colour if run.contact_free else "white"
+            ax.plot(step, run.pace, MARKERS[name], mfc=face, mec=colour, markersize=4.2, zorder=4)
+    ax.set_xlabel(r"update step  $\delta\mathcal{X}$")
+    ax.set_title("steered, dt = 10 ms", loc="left")
+    _speed_key(ax)
 
 
 def _speed_key(ax: Axes) -> None:

@@ -115,6 +115,16 @@ def compose(chapters: Sequence[Chapter], *, whole: bool, seconds: float) -> list
         "from the numbers of these runs by the rule in the last column.",
         claims_table(claims),
     ]
+    blocks += number_tables(chapters)
+    for chapter in chapters:
+        if chapter.blocks:
+            blocks += [Heading(chapter.title), *chapter.blocks]
+    return blocks
+
+
+def number_tables(chapters: Sequence[Chapter]) -> list[Block]:
+    """The tables of wall forces and of replays, if there is anything in them."""
+    blocks: list[Block] = []
     reductions = [row for chapter in chapters for row in chapter.reductions]
     replays = [row for chapter in chapters for row in chapter.replays]
     if reductions:
@@ -134,7 +144,4 @@ def compose(chapters: Sequence[Chapter], *, whole: bool, seconds: float) -> list
             "weak or too strong as a whole.",
             tables.replay_table(replays),
         ]
-    for chapter in chapters:
-        if chapter.blocks:
-            blocks += [Heading(chapter.title), *chapter.blocks]
     return blocks
