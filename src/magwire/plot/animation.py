@@ -245,10 +245,10 @@ def _write_gif(path: Path, frames: Iterator[Frame], size: tuple[int, int], rate:
     rest = list(images)
     sample = Image.new("RGB", (size[0], 2 * size[1]))
     sample.paste(rest[len(rest) // 2], (0, 0))
-    for k, colour in enumerate((WIRE, TIP, style.CLEARANCE, style.FORCE)):  # thin as they are
-        sample.paste(
-            Image.new("RGB", (size[0], size[1] // 4), colour), (0, size[1] + k * size[1] // 4)
-        )
+    sure = ("#ffffff", WIRE, TIP, style.CLEARANCE, style.FORCE)  # however thin they are
+    part = size[1] // len(sure)
+    for k, colour in enumerate(sure):
+        sample.paste(Image.new("RGB", (size[0], part), colour), (0, size[1] + k * part))
     palette = sample.quantize(64, dither=Image.Dither.NONE)
     flat = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in (first, *rest)]
     duration = [round(1000 / rate)] * (len(flat) - 1) + [1500]
