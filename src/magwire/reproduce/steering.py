@@ -81,8 +81,8 @@ def write_case(scenario: str, claims: Claims, runs: Runs, images: Path) -> Chapt
             f"images/{file}",
             f"The {scenario} without and with a field: shapes every 0.1 of X, tip "
             "force, and the field of each navigator. The lumen that is simulated has no virtual "
-            "tube; Newton's method and the paper's optimiser plan with one, and begin with a spike of "
-            "the field, where hardly more than the magnet is out of the guide.",
+            "tube; Newton's method and the paper's optimiser plan with one, and begin with a spike "
+            "of the field, where hardly more than the magnet is out of the guide.",
         ),
     ]
     if scenario == ANIMATED:
