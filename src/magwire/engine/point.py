@@ -32,8 +32,20 @@ class Point:
         mouth: Mouth | None = None,
     ) -> Array:
         """Gradient of the energy, scaled, shape (nodes + 1, 4), with its own inputs or others."""
+        return self.energy(work, rod=rod, field=field, mouth=mouth)[1]
+
+    def energy(
+        self,
+        work: Work,
+        *,
+        rod: Rod | None = None,
+        field: Field | None = None,
+        mouth: Mouth | None = None,
+    ) -> tuple[float, Array]:
+        """Energy and its gradient, scaled."""
         system = self.system
         model = (rod or system.rod, field or self.field, system.new_wall(), system.walls)
         still = Motion(0.0, work.target)
-        assemble(model, self.state, mouth or self.mouth, still, work.gradient, work.no_band)
-        return work.gradient.copy()
+        where = mouth or self.mouth
+        energy, _ = assemble(model, self.state, where, still, work.gradient, work.no_band)
+        return float(energy), work.gradient.copy()
