@@ -27,6 +27,7 @@ L, RADIUS = 0.1, 0.4e-3
 WIRE = Wire.uniform(L, RADIUS, 3e6, 1e6, 2000.0, NODES, magnetized_tip=L, magnetization=20e3)
 UNIT = L**2 * sqrt(WIRE.body.density * WIRE.body.area / WIRE.bending_stiffness)
 """Of time, L^2 sqrt(rho A/EI) [s]."""
+GRADIENT = ((2e-3, 3e-3, 1e-3), (3e-3, -4e-3, 2e-3), (1e-3, 2e-3, 2e-3))
 BEAM = "beam equation of a magnet in a field along it, characteristic equation"
 
 
@@ -231,8 +232,8 @@ def _mixed() -> Wire:
 def _momentum() -> Iterator[Line]:
     """Change of momentum against the impulse of guide, weight, field gradient and damping."""
     mu, gravity = 2.0, np.array([0.3, -0.2, -0.5])
-    gradient = np.array([[2.0, 3.0, 1.0], [3.0, -4.0, 2.0], [1.0, 2.0, 2.0]]) * 1e-3
-    field: FieldSource = GradientField((1e-4, 2e-4, 1e-4), tuple(map(tuple, gradient.tolist())))
+    gradient = np.array(GRADIENT)
+    field: FieldSource = GradientField((1e-4, 2e-4, 1e-4), GRADIENT)
     sim = Simulation(WIRE, Lumen.open_space(), damping=mu, gravity=gravity)
     swing = let_go(sim.equilibrium(L, _flux(3.0, 90.0)), field, UNIT / 200.0, 400)
     step, held = float(swing.time[1]), swing.held

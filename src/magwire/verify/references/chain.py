@@ -31,7 +31,7 @@ def _torque(angles: Array, field: Array) -> Array:
     springs = np.full(links, float(links))
     springs[0] *= 2.0
     moments = springs * np.diff(angles, prepend=0.0)
-    elastic = np.append(moments[1:], 0.0) - moments
+    elastic: Array = np.append(moments[1:], 0.0) - moments
     return elastic + (field[1] * np.cos(angles) - field[0] * np.sin(angles)) / links
 
 

@@ -61,7 +61,7 @@ def _tip_of_mode(omega: float, b: float) -> float:
         return first + share * (sinh(p * x) / p - sin(k * x) / k)
 
     mass, _ = quad(lambda x: shape(x) ** 2, 0.0, 1.0, epsabs=0.0, epsrel=1e-10, limit=200)
-    return shape(1.0) / sqrt(mass)
+    return float(shape(1.0) / sqrt(mass))
 
 
 def tip_after_release(time: ArrayLike, b: float, damping: float, modes: int = 6) -> Array:
