@@ -9,6 +9,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.verify.authors import series as authors_series
+
 DATA = Path(__file__).parent / "data"
 Array = NDArray[np.float64]
 
@@ -31,16 +33,13 @@ def critical_load(case: str) -> float:
 
 @lru_cache
 def figure(name: str, series: str) -> Array:
-    """The numbers of one series of a file in paper_figures/, shape (n, columns)."""
-    with (DATA / "paper_figures" / f"{name}.csv").open(encoding="utf-8") as file:
-        rows = [row[1:] for row in csv.reader(file) if row[0] == series]
-    return np.array(rows, dtype=np.float64)
+    """The numbers of one series of the authors' curves, shape (n, columns)."""
+    return authors_series(name, series)
 
 
 @lru_cache
 def control_field() -> tuple[tuple[str, float, float], ...]:
     """Series, push and value of the authors' field in their earlier half-circle."""
-    path = DATA / "paper_figures" / "control_halfcircle_field.csv"
-    with path.open(encoding="utf-8") as file:
-        rows = csv.DictReader(file)
-        return tuple((r["series"], float(r["X_push"]), float(r["value"])) for r in rows)
+    colours = ("green_square", "red_circle")
+    rows = [(c, *row) for c in colours for row in figure("control_halfcircle_field", c).tolist()]
+    return tuple(rows)

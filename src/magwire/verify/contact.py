@@ -70,9 +70,9 @@ def evidence(full: bool) -> Iterator[Line | Curve]:
     yield from _work()
     yield from _insertion()
     yield from _penetration(PAPER, 0.1e-3)
-    yield from _penetration(SHARP, 0.005e-3)
+    yield from _penetration(SHARP, 0.02e-3)
     if full:
-        yield from _penetration(SHARP, 0.02e-3)
+        yield from _penetration(SHARP, 0.005e-3)
 
 
 def _hard(bend: _Bend, links: int, b: float) -> hard_contact.Pressed:

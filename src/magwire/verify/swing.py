@@ -67,8 +67,9 @@ def let_go(start: Equilibrium, source: FieldSource, time_step: float, steps: int
         if status != CONVERGED or tally.counts[3] > 0:
             raise RuntimeError("A time step did not converge, or not in one piece.")
         rows.append(_row(point, velocity))
-    positions, velocities, energy, force = (np.array(column) for column in zip(*rows, strict=True))
-    time = time_step * np.arange(steps + 1)
+    columns: list[Array] = [np.array(column) for column in zip(*rows, strict=True)]
+    time = time_step * np.arange(0.0, steps + 1.0)
+    positions, velocities, energy, force = columns
     return Swing(time, positions, velocities, energy, force, mouth.held)
 
 

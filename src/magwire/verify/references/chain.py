@@ -31,8 +31,9 @@ def _torque(angles: Array, field: Array) -> Array:
     springs = np.full(links, float(links))
     springs[0] *= 2.0
     moments = springs * np.diff(angles, prepend=0.0)
-    elastic: Array = np.append(moments[1:], 0.0) - moments
-    return elastic + (field[1] * np.cos(angles) - field[0] * np.sin(angles)) / links
+    magnetic = (field[1] * np.cos(angles) - field[0] * np.sin(angles)) / links
+    torque: Array = np.append(moments[1:], 0.0) - moments + magnetic
+    return torque
 
 
 def swing(

@@ -54,7 +54,7 @@ def _tip_of_mode(omega: float, b: float) -> float:
     """Deflection of the tip in a mode of unit mass, int w^2 dx = 1."""
     p, k = _wave_numbers(omega, b)
     moment = _tip_conditions(omega, b)[0]
-    share = -moment[0] / moment[1]
+    share = float(-moment[0] / moment[1])
 
     def shape(x: float) -> float:
         first = cosh(p * x) - cos(k * x)
