@@ -79,7 +79,7 @@ def _hard(bend: _Bend, links: int, b: float) -> hard_contact.Pressed:
     """In the field b = M B L^2/EI across the entrance."""
     magnet = np.zeros((links, 2))
     magnet[-5:, 1] = b * EDGE / L
-    return hard_contact.press(links, EDGE / L, bend.bend, bend.width, magnet)
+    return hard_contact.press(links, EDGE / L, bend.bend, bend.width, field=magnet)
 
 
 def _pressed(bend: _Bend, links: int, b: float, barrier: Barrier) -> Equilibrium:

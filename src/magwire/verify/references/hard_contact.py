@@ -42,11 +42,18 @@ class Pressed:
 
 
 def press(
-    links: int, step: float, bend: float, width: float, field: Array | None = None
+    links: int,
+    step: float,
+    bend: float,
+    width: float,
+    *,
+    field: Array | None = None,
+    entry: float = 0.0,
 ) -> Pressed:
-    """Chain of links of length ``step`` from the origin along x into the channel.
+    """Chain of links of length ``step``, clamped along x, in the channel.
 
-    ``field``: torque per link and unit of sine of the angle to it, shape (links, 2).
+    ``field``: torque per link and unit of sine of the angle to it, shape (links, 2). ``entry``:
+    length of a straight channel before the bend; the clamp is at its begin, the bend at the origin.
     """
     springs = np.full(links, 1.0 / step)
     springs[0] *= 2.0
@@ -54,7 +61,14 @@ def press(
     centre = np.array([0.0, bend])
 
     def joints(angles: Array) -> Array:
-        return step * np.cumsum(np.column_stack((np.cos(angles), np.sin(angles))), axis=0)
+        ends: Array = step * np.cumsum(np.column_stack((np.cos(angles), np.sin(angles))), axis=0)
+        return ends - np.array([entry, 0.0])
+
+    def from_centre(angles: Array) -> Array:
+        """Away from the centre of the bend; in the straight channel, from its own axis."""
+        away: Array = joints(angles) - centre
+        away[:, 0] = np.maximum(away[:, 0], 0.0)
+        return away
 
     def energy(angles: Array) -> tuple[float, Array]:
         turn = np.diff(angles, prepend=0.0)
@@ -66,18 +80,18 @@ def press(
         return value, slope
 
     def gaps(angles: Array) -> Array:
-        away = np.linalg.norm(joints(angles) - centre, axis=1)
+        away = np.linalg.norm(from_centre(angles), axis=1)
         return np.concatenate((bend + width - away, away - (bend - width)))
 
     def slopes(angles: Array) -> Array:
         """Of the gaps by the angles, shape (2 links, links)."""
-        away = joints(angles) - centre
+        away = from_centre(angles)
         outwards = away / np.linalg.norm(away, axis=1)[:, None]
         turned = step * np.column_stack((-np.sin(angles), np.cos(angles)))
         by_angle = np.tril(outwards @ turned.T)
         return np.concatenate((-by_angle, by_angle))
 
-    start = step * (np.arange(links) + 0.5) / bend
+    start = np.maximum(step * (np.arange(links) + 0.5) - entry, 0.0) / bend
     found = minimize(
         energy,
         start,
@@ -89,7 +103,7 @@ def press(
     angles = np.asarray(found.x)
     touching = np.flatnonzero(gaps(angles) < TOUCHING)
     forces, misfit = nnls(slopes(angles)[touching].T, energy(angles)[1])
-    away = joints(angles) - centre
+    away = from_centre(angles)
     outwards = away / np.linalg.norm(away, axis=1)[:, None]
     wall_force = np.zeros((links, 2))
     for i, force in zip(touching, forces, strict=True):
