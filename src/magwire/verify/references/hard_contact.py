@@ -62,7 +62,8 @@ def press(
 
     def joints(angles: Array) -> Array:
         ends: Array = step * np.cumsum(np.column_stack((np.cos(angles), np.sin(angles))), axis=0)
-        return ends - np.array([entry, 0.0])
+        ends[:, 0] -= entry
+        return ends
 
     def from_centre(angles: Array) -> Array:
         """Away from the centre of the bend; in the straight channel, from its own axis."""
