@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
 
 from magwire.contact import Barrier
 from magwire.engine.statics import Equilibrium, find_equilibrium
@@ -17,13 +18,17 @@ from magwire.field import UniformField
 from magwire.kernels.arrays import Rod
 from magwire.lumen import Lumen
 from magwire.simulation import Simulation
-from magwire.verify.evidence import NODES
+from magwire.verify.evidence import NODES, Line
+from magwire.verify.references.pendulum import Bent
 from magwire.wire import Wire
 
 Array = NDArray[np.float64]
 
 L = 0.1
 """Length of all wires [m]."""
+STUFF: dict[str, Any] = {"youngs_modulus": 3e6, "shear_modulus": 1e6, "density": 2000.0}
+CLOSE = 1e-3
+"""How near angles [rad] and places [L] must come to their references."""
 PRECISION = 1e-5
 """To which a critical load is found, as part of it."""
 
@@ -31,8 +36,7 @@ PRECISION = 1e-5
 def magnet(nodes: int = NODES, part: float = 1.0, **options: Any) -> Wire:
     """A wire of which the distal part is magnetised."""
     settings = {"magnetized_tip": part * L, "magnetization": 20e3, "radius": 0.4e-3, **options}
-    stuff = {"youngs_modulus": 3e6, "shear_modulus": 1e6, "density": 2000.0}
-    return Wire.uniform(length=L, nodes=nodes, **stuff, **settings)
+    return Wire.uniform(length=L, nodes=nodes, **STUFF, **settings)
 
 
 def flux(wire: Wire, b: float, degrees: float = 0.0) -> Array:
@@ -89,6 +93,25 @@ def critical(stable: Callable[[float], bool], expected: float) -> float:
     return 0.5 * (low + high)
 
 
+def crossing(stiffness: Callable[[float], float], expected: float) -> float:
+    """Load at which a stiffness falls to zero, near the expected one; NaN if it does not."""
+    low, high = 0.9 * expected, 1.1 * expected
+    if not stiffness(low) > 0.0 > stiffness(high):
+        return float("nan")
+    return float(brentq(stiffness, low, high, xtol=PRECISION * expected))
+
+
 def order(sizes: ArrayLike, errors: ArrayLike) -> float:
     """Slope of log(error) over log(size): the order of convergence."""
     return float(np.polyfit(np.log(sizes), np.log(errors), 1)[0])
+
+
+def compare(group: str, case: str, state: Equilibrium, exact: Bent, source: str) -> Iterator[Line]:
+    """Tip of a wire in the xy plane, next to the reference: angle and place."""
+    angle, x, y = tip(state)
+    for quantity, unit, reference, value in (
+        ("tip angle", "rad", exact.angle, angle),
+        ("tip x", "L", exact.x, x),
+        ("tip y", "L", exact.y, y),
+    ):
+        yield Line(group, case, quantity, unit, reference, source, value, CLOSE)

@@ -19,7 +19,7 @@ def euler(ends: str) -> float:
 
 
 def own_weight() -> float:
-    """q L^3/EI at which a clamped column buckles under its weight: Greenhill's 7.8373.
+    """Weight q L^3/EI at which a clamped column buckles: Greenhill's 7.8373.
 
     theta'' + q (1 - s) theta = 0 with theta(0) = 0 and theta'(1) = 0 has the solution
     (1 - s)^(1/2) J_{-1/3}(2/3 q^(1/2) (1 - s)^(3/2)).
