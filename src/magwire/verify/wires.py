@@ -15,7 +15,8 @@ from magwire.contact import Barrier
 from magwire.engine.statics import Equilibrium, find_equilibrium
 from magwire.engine.system import System
 from magwire.field import UniformField
-from magwire.kernels.arrays import Rod
+from magwire.kernels.arrays import Motion, Rod
+from magwire.kernels.assembly import assemble
 from magwire.lumen import Lumen
 from magwire.simulation import Simulation
 from magwire.verify.evidence import NODES, Line
@@ -115,3 +116,17 @@ def compare(group: str, case: str, state: Equilibrium, exact: Bent, source: str)
         ("tip y", "L", exact.y, y),
     ):
         yield Line(group, case, quantity, unit, reference, source, value, CLOSE)
+
+
+def guide_load(state: Equilibrium) -> tuple[Array, Array]:
+    """Force of the guide on the wire [EI/L^2], and its torque about the origin [EI/L]."""
+    point = state.point
+    system, work = point.system, point.system.new_work()
+    model = (system.rod, point.field, system.new_wall(), system.walls)
+    still = Motion(0.0, work.target)
+    assemble(model, point.state, point.mouth, still, work.gradient, work.no_band)
+    first = point.mouth.held - 1  # all that is free has no load left over
+    rows, tangents = work.gradient[first:], point.state.tangent[first:]
+    torque = np.cross(point.state.q[first:, :3], rows[:, :3]).sum(axis=0)
+    torque += (rows[:-1, 3:] * tangents).sum(axis=0)  # turning an edge turns its frame along
+    return rows[:, :3].sum(axis=0), torque

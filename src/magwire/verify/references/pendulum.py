@@ -52,25 +52,25 @@ def magnetised_tip(load: float, direction: float, part: float) -> Bent:
     """
     root = np.sqrt(load)
 
-    def joint(left: float) -> tuple[float, float]:
+    def joint(left: Array) -> tuple[Array, Array]:
         """Angle still missing at the joint and curvature there, if ``left`` misses at the tip."""
         k, m, m1 = np.cos(0.5 * left), np.cos(0.5 * left) ** 2, np.sin(0.5 * left) ** 2
         u = ellipkm1(m1) - root * part
         sn, cn, _, _ = ellipj(abs(u), m)
         sn = np.copysign(sn, u)
-        return float(2.0 * np.arccos(np.clip(k * sn, -1.0, 1.0))), float(2.0 * root * k * cn)
+        return 2.0 * np.arccos(np.clip(k * sn, -1.0, 1.0)), 2.0 * root * k * cn
 
-    def excess(logarithm: float) -> float:
-        missing, curvature = joint(float(np.exp(logarithm)))
+    def excess(logarithm: Array) -> Array:
+        missing, curvature = joint(np.exp(logarithm))
         return missing + (1.0 - part) * curvature - direction
 
     grid = np.linspace(np.log(1e-7), np.log(direction * (1.0 - 1e-9)), SCAN)
-    values = np.array([excess(g) for g in grid])
+    values = excess(grid)
     changes = np.flatnonzero(np.sign(values[:-1]) != np.sign(values[1:]))
     if len(changes) == 0:
         raise ValueError(f"No bent wire at a load of {load} at {direction} rad.")
     left = float(np.exp(brentq(excess, *grid[changes[0] : changes[0] + 2], xtol=1e-14)))
-    missing, curvature = joint(left)
+    missing, curvature = (float(value) for value in joint(np.asarray(left)))
     theta = direction - missing
     if part < 1.0:
         x, y = np.sin(theta) / curvature, (1.0 - np.cos(theta)) / curvature
