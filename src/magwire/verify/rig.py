@@ -11,8 +11,9 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eigvalsh
-from scipy.sparse import csc_array, diags_array, eye_array, hstack
+from scipy.linalg import eig_banded
+from scipy.sparse import coo_array, csc_array, diags_array, eye_array, hstack
+from scipy.sparse.csgraph import reverse_cuthill_mckee
 from scipy.sparse.linalg import spsolve
 
 from magwire.contact import Barrier
@@ -165,7 +166,14 @@ class Rig:
 
     def smallest(self, skip: int = 0) -> float:
         """Smallest eigenvalue of the stiffness, but for ``skip`` of them that are nearest to 0."""
-        values = eigvalsh(self.stiffness().toarray())
+        stiffness = self.stiffness()
+        order = reverse_cuthill_mckee(stiffness, symmetric_mode=True)
+        entries = coo_array(stiffness[order][:, order])
+        row, column = entries.coords
+        below = row >= column
+        band = np.zeros((int((row - column).max()) + 1, stiffness.shape[0]))
+        band[(row - column)[below], column[below]] = entries.data[below]
+        values = eig_banded(band, lower=True, eigvals_only=True, select="i", select_range=(0, skip))
         return float(values[np.argsort(np.abs(values))[skip:]].min())
 
     def settle(self) -> None:
