@@ -100,7 +100,7 @@ def passive(
         F=np.array([record.tip_force for record in records]) / system.scales.force,
         positions=np.array([record.position for record in records]),
         forces=np.array([record.contact_force for record in records]),
-        clearance=np.array([free.min() if len(free) else np.nan for free in nearest]),
+        clearance=np.array([gaps.min() if len(gaps) else np.nan for gaps in nearest]),
         between=np.array([record.clearance_midpoint for record in records]),
         stable=np.array([record.stable for record in records]),
         peak=march.totals.max_tip_force / system.scales.force,
