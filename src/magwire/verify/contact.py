@@ -269,10 +269,16 @@ def _penetration(bend: _Bend, gap: float) -> Iterator[Line]:
         depths = np.maximum(depths, _depths(sim.system.lumen, np.vstack((held, free))))
     sagitta = (EDGE / L) ** 2 / 8.0 / (bend.bend - bend.width)
     case, bound = f"{bend}, a whole push, dhat = {gap * 1e3:g} mm", "a wall cannot be crossed"
-    names = ("nodes", "chords between them", "spline through them")
-    for name, depth, tolerance in zip(names, depths / L, (0.0, sagitta, sagitta), strict=True):
+    between = f"{bound}, but for h²/8ρ between nodes"
+    for name, source, depth, tolerance in zip(
+        ("nodes", "chords between them", "spline through them"),
+        (bound, between, between),
+        depths / L,
+        (0.0, sagitta, sagitta),
+        strict=True,
+    ):
         yield Line(
-            GROUP, case, f"penetration, {name}", "L", 0.0, bound, float(depth), tolerance
+            GROUP, case, f"penetration, {name}", "L", 0.0, source, float(depth), tolerance
         )  # fmt: skip
 
 

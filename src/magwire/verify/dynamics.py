@@ -162,7 +162,7 @@ def _order_in_time() -> Iterator[Line | Curve]:
     )  # fmt: skip
     time = np.linspace(0.0, 0.5 * period, 200)
     yield Curve(
-        "Small swing, dt = T/200",
+        "Small swing, dt = T/1600",
         "t / T",
         "tip over field across",
         {
@@ -172,8 +172,8 @@ def _order_in_time() -> Iterator[Line | Curve]:
                 "line",
             ),
             "magwire": (
-                swings[0].time[::5] / period,
-                swings[0].positions[::5, -1, 1] / (across * L),
+                swings[-1].time[::25] / period,
+                swings[-1].positions[::25, -1, 1] / (across * L),
                 "points",
             ),
         },

@@ -236,12 +236,15 @@ def _weightless_helix() -> Iterator[Line | Curve]:
         GROUP, case, "wall force per length", "F²r/EI", force / unit,
         "F²r/4EI (Mitchell 1988), with the helix's slope", float(wall) / unit, 0.01, relative=True,
     )  # fmt: skip
-    p = coiled.state.positions / coiled.offset
+    straight = expected * (s - s[middle].mean()) + coiled.angle[middle].mean()
     yield Curve(
-        f"Weightless wire wound up, F = {coiled.load / STIFFNESS * L**2:.0f} EI/L²",
-        "x [r]",
-        "y [r]",
-        {"tube": (p[[0, -1], 0], np.ones(2), "line"), "magwire": (p[:, 0], p[:, 1], "points")},
+        "Weightless wire wound up in a tube",
+        "s / L",
+        "turns around the tube",
+        {
+            "k² = F/2EI": (s / L, straight / (2.0 * np.pi), "line"),
+            "magwire": (s[::8] / L, coiled.angle[::8] / (2.0 * np.pi), "points"),
+        },
     )
 
 

@@ -32,7 +32,7 @@ class Pressed:
     energy
         Of bending [EI/L].
     misfit
-        Largest torque on a link that the walls' forces leave over [EI/L].
+        Norm of the torques on the links that the walls' forces leave over [EI/L].
     """
 
     joints: Array
@@ -103,7 +103,11 @@ def press(
     )
     angles = np.asarray(found.x)
     touching = np.flatnonzero(gaps(angles) < TOUCHING)
-    forces, misfit = nnls(slopes(angles)[touching].T, energy(angles)[1])
+    torque = energy(angles)[1]
+    if len(touching) > 0:
+        forces, misfit = nnls(slopes(angles)[touching].T, torque)
+    else:
+        forces, misfit = np.zeros(0), np.linalg.norm(torque)
     away = from_centre(angles)
     outwards = away / np.linalg.norm(away, axis=1)[:, None]
     wall_force = np.zeros((links, 2))

@@ -21,7 +21,7 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq, minimize
-from scipy.sparse import csc_matrix, lil_matrix
+from scipy.sparse import csc_array
 from scipy.sparse.linalg import eigsh
 
 Array = NDArray[np.float64]
@@ -66,7 +66,7 @@ def least_load(
         Of equal length, cubic.
     """
     h = length / elements
-    fixed, load = lil_matrix((2 * elements + 2,) * 2), lil_matrix((2 * elements + 2,) * 2)
+    fixed, load = np.zeros((2, 2 * elements + 2, 2 * elements + 2))
     for e in range(elements):
         rows = slice(2 * e, 2 * e + 4)
         for point, weight in zip(*np.polynomial.legendre.leggauss(4), strict=True):
@@ -84,7 +84,7 @@ def least_load(
         load[rows, rows] -= factor * np.outer(value, value)
     held = np.concatenate((ends.begin, np.zeros(2 * elements - 2, dtype=bool), ends.end))
     free = np.flatnonzero(~held)
-    a, b = csc_matrix(fixed)[free][:, free], csc_matrix(load)[free][:, free]
+    a, b = (csc_array(matrix[np.ix_(free, free)]) for matrix in (fixed, load))
     # b is not positive definite, a is: the largest 1/F of b y = (1/F) a y.
     value = eigsh(b, k=1, M=a, which="LA", return_eigenvectors=False)
     return 1.0 / float(value[0])

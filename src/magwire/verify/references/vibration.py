@@ -11,7 +11,6 @@ from math import cos, cosh, sin, sinh, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.integrate import quad
 from scipy.optimize import brentq
 
 Array = NDArray[np.float64]
@@ -56,12 +55,13 @@ def _tip_of_mode(omega: float, b: float) -> float:
     moment = _tip_conditions(omega, b)[0]
     share = float(-moment[0] / moment[1])
 
-    def shape(x: float) -> float:
-        first = cosh(p * x) - cos(k * x)
-        return first + share * (sinh(p * x) / p - sin(k * x) / k)
+    def shape(x: Array) -> Array:
+        first: Array = np.cosh(p * x) - np.cos(k * x)
+        return first + share * (np.sinh(p * x) / p - np.sin(k * x) / k)
 
-    mass, _ = quad(lambda x: shape(x) ** 2, 0.0, 1.0, epsabs=0.0, epsrel=1e-10, limit=200)
-    return float(shape(1.0) / sqrt(mass))
+    points, weights = np.polynomial.legendre.leggauss(100)
+    mass = 0.5 * float(weights @ shape(0.5 * (1.0 + points)) ** 2)
+    return float(shape(np.ones(1))[0]) / sqrt(mass)
 
 
 def tip_after_release(time: ArrayLike, b: float, damping: float, modes: int = 6) -> Array:
