@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from importlib.metadata import PackageNotFoundError
+
 import pytest
 
+from magwire.verify import engines
 from magwire.verify.evidence import Line, Verdict
 from magwire.verify.report import GROUPS, Entry, gather
 
@@ -27,3 +30,23 @@ def test_every_line_passes(name: str) -> None:
     assert {entry.group for entry in group.entries} == {name}
     names = [e.name for e in group.entries if isinstance(e, Line)]
     assert len(names) == len(set(names)), "two lines of a group have the same name"
+
+
+@pytest.mark.parametrize(
+    ("found", "reason"), [(None, "is not installed"), ("3.6.0", "version 4 or later is needed")]
+)
+def test_without_the_other_engine(
+    monkeypatch: pytest.MonkeyPatch, found: str | None, reason: str
+) -> None:
+    """What cannot be compared is said to be skipped, and is no pass."""
+
+    def version(_: str) -> str:
+        if found is None:
+            raise PackageNotFoundError
+        return found
+
+    monkeypatch.setattr(engines, "version", version)
+    report = gather(["engines"])
+    assert report.counts == {"skipped": 2}
+    assert not report.passed
+    assert all(reason in entry.reason for entry in report.groups[0].entries)  # type: ignore[union-attr]

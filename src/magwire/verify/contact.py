@@ -57,9 +57,9 @@ def _barrier(gap: float, stiffness: float = 1e3) -> Barrier:
 def evidence(full: bool) -> Iterator[Line | Curve]:
     """Lines and curves of the group; more bends and whole pushes if ``full``."""
     yield from tubes.evidence(full)
-    cases = [(PAPER, 50, 0.0), (PAPER, 50, 40.0), (NARROW, 50, 0.0)]
+    cases = [(PAPER, 30, 40.0), (NARROW, 50, 0.0)]
     if full:
-        cases += [(PAPER, 20, 0.0), (PAPER, 30, 0.0), (SHARP, 40, 0.0), (SHARP, 60, 0.0)]
+        cases += [(PAPER, 20, 0.0), (PAPER, 50, 0.0), (SHARP, 40, 0.0), (SHARP, 60, 0.0)]
     for bend, links, b in cases:
         yield from _forces(bend, links, b)
     yield from _rate(1.0)

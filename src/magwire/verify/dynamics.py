@@ -207,8 +207,8 @@ def _large_swing() -> Iterator[Line]:
 def _energy() -> Iterator[Line]:
     """In a field that does not change, without damping, time steps may only lose energy."""
     cases: dict[str, tuple[Wire, tuple[float, float, float], int]] = {
-        "swing in a plane": (WIRE, _flux(1.0, -45.0), 1000),
-        "swing in space, twisting": (_mixed(), (0.4e-3, 0.5e-3, -0.6e-3), 1000),
+        "swing in a plane": (WIRE, _flux(1.0, -45.0), 400),
+        "swing in space, twisting": (_mixed(), (0.4e-3, 0.5e-3, -0.6e-3), 400),
         "the same, dt = T/10": (_mixed(), (0.4e-3, 0.5e-3, -0.6e-3), 30),
     }
     period = 2.0 * pi / 3.516 * UNIT
