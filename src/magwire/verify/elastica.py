@@ -33,9 +33,9 @@ POINTS = 2 * NODES - 1
 """Of a reference: the nodes and the middles between them."""
 LOAD = 1e-2
 
-BISSHOPP = "Bisshopp & Drucker 1945, elliptic integrals"
-EULER = "Euler 1744; Timoshenko & Gere 1961"
-BVP = "planar elastica with EI(s), scipy.integrate.solve_bvp"
+BISSHOPP = "Bisshopp & Drucker 1945"
+EULER = "Timoshenko & Gere 1961"
+BVP = "planar elastica, solve_bvp"
 
 
 def evidence(full: bool) -> Iterator[Line | Curve]:
@@ -129,7 +129,7 @@ def _euler(full: bool) -> Iterator[Line]:
     def stands(q: float) -> bool:
         return free(wire(), gravity=(-q * unit, 0.0, 0.0)).equilibrium(L).stable
 
-    source = "Greenhill 1881, root of a Bessel function"
+    source = "Greenhill 1881"
     yield _load("column under its own weight, q L^3/EI", exact, critical(stands, exact), source)
 
 

@@ -37,9 +37,9 @@ STEEP = 150
 a magnet of L/50, which would have two edges, by more than 90 degrees."""
 MESHES = (26, 51, 101, 201)
 
-ELASTICA = "hard-magnetic elastica (Wang et al. 2020), elliptic integrals"
-KIRCHHOFF = "Kirchhoff rod in space, scipy.integrate.solve_bvp"
-CHARGES = "charges -M and +M at the two ends"
+ELASTICA = "Wang et al. 2020, elliptic integrals"
+KIRCHHOFF = "Kirchhoff rod, solve_bvp"
+CHARGES = "charges -M, +M at the ends"
 
 
 def evidence(full: bool) -> Iterator[Line | Curve]:
@@ -183,7 +183,7 @@ def _rigid_tip(full: bool) -> Iterator[Line]:
         exact = pendulum.dipole(strength, np.radians(degrees), rigid)
         state = _at(wire, strength / rigid, degrees)
         case = f"rigid tip of {rigid:g} L, field at {degrees:g} degrees, m B L/EI = {strength:g}"
-        yield from compare(GROUP, case, state, exact, "arc of a circle, torque m B sin")
+        yield from compare(GROUP, case, state, exact, "arc of a circle")
 
 
 MIXED = ((0.0, 1.0, 0.0), (0.6, 0.0, 0.8), (0.0, -0.8, 0.6), (0.5, 0.7, 0.51))
@@ -274,7 +274,7 @@ def _charges(full: bool) -> Iterator[Line]:
         torque = charge * (np.cross(ends[1], b[1]) - np.cross(ends[0], b[0]))
         scale = free(wire).system.scales
         pairs = zip(
-            ("force", "torque about the clamp"),
+            ("force", "torque"),
             (force / scale.force, torque / (scale.force * L)),
             (-load for load in guide_load(state)),
             ("EI/L^2", "EI/L"),
