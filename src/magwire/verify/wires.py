@@ -103,7 +103,9 @@ def crossing(stiffness: Callable[[float], float], expected: float) -> float:
 
 
 def order(sizes: ArrayLike, errors: ArrayLike) -> float:
-    """Slope of log(error) over log(size): the order of convergence."""
+    """Slope of log(error) over log(size), the order of convergence; NaN if an error is none."""
+    if not np.all(np.isfinite(errors) & (np.asarray(errors) > 0.0)):
+        return float("nan")
     return float(np.polyfit(np.log(sizes), np.log(errors), 1)[0])
 
 
