@@ -27,7 +27,7 @@ from magwire.wire import Section, Wire
 GROUP = "elastica"
 THIN = 0.1e-3  # m: L = 1000 r, so that stretching is out of sight
 FINE = 200
-"""Nodes where the wire turns by more than half a circle in all."""
+"""Nodes where the wire may turn by more than half a circle in all."""
 MESHES = (26, 51, 101, 201)
 POINTS = 2 * NODES - 1
 """Of a reference: the nodes and the middles between them."""
@@ -75,8 +75,8 @@ def _tip_force(full: bool) -> Iterator[Line | Curve]:
                errors[-1], CLOSE, order=slope, expected_order=2.0)  # fmt: skip
     fine = np.linspace(0.05, 10.0, 60)
     line = np.array([pendulum.under_force(p, np.pi / 2.0) for p in fine]).T
-    found = np.array([pulled(wire(), (0.0, p)).tip[:2] / L for p in (0.5, 1, 2, 3, 5, 7, 10)]).T
-    points = np.array([0.5, 1, 2, 3, 5, 7, 10])
+    points = np.array([0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0])
+    found = np.array([pulled(wire(), (0.0, p)).tip[:2] / L for p in points]).T
     yield Curve(
         "Cantilever under a tip force",
         "P L²/EI",
