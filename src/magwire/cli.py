@@ -234,8 +234,11 @@ def verify(
     """
     from magwire.verify import report
 
-    if out is not None:
+    if out is not None:  # better said before the work than after it
         check_free(out, force=force)
+        with writing_to(out):
+            pass
+    foretell_compiling()
     result = report.show(only or tuple(report.GROUPS), full=full)
     if out is not None:
         with writing_to(out):
@@ -289,16 +292,22 @@ def outcome(result: Result | None) -> int:
 
 def simulate(job: Job, file: Path) -> Result | None:
     """Run a job with a progress bar; None if it was interrupted before its first record."""
-    from magwire.kernels._jit import compiled_before
     from magwire.results import Result
 
-    if not compiled_before():
-        complain("Compiling for this machine; this happens once and takes about half a minute.")
+    foretell_compiling()
     with progress(job.feed.duration) as show:
         try:
             return job.run(file, watch=show)
         except KeyboardInterrupt:  # the file says "interrupted" by now
             return Result.load(file) if file.exists() else None
+
+
+def foretell_compiling() -> None:
+    """Say so if kernels have to be compiled first."""
+    from magwire.kernels._jit import compiled_before
+
+    if not compiled_before():
+        complain("Compiling for this machine; this happens once and takes about half a minute.")
 
 
 @contextmanager

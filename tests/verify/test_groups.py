@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from importlib.metadata import PackageNotFoundError
+from typing import Any
 
 import pytest
 
+from magwire.engine import system
 from magwire.verify import engines
 from magwire.verify.evidence import Line, Verdict
 from magwire.verify.report import GROUPS, Entry, gather
+from magwire.verify.rig import Rig
+from magwire.wire import Mesh, Wire
 
 
 def fault(entry: Entry) -> str:
@@ -30,6 +35,65 @@ def test_every_line_passes(name: str) -> None:
     assert {entry.group for entry in group.entries} == {name}
     names = [e.name for e in group.entries if isinstance(e, Line)]
     assert len(names) == len(set(names)), "two lines of a group have the same name"
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong", "indifferent"),
+    [
+        ("elastica", "bending_stiffness", ("no load",)),
+        ("magnetic", "moment", ()),
+        ("twist", "bending_stiffness", ()),  # ends at the helix, which is not found
+    ],
+)
+def test_two_percent_off_is_found_out(
+    name: str, wrong: str, indifferent: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Every case fails but those in which the number that is wrong plays no part."""
+    right, start = system.lay_out, Rig.__init__
+
+    def off(wire: Wire) -> Mesh:
+        mesh = right(wire)
+        return replace(mesh, **{wrong: 1.02 * getattr(mesh, wrong)})
+
+    def start_off(rig: Rig, nodes: int, **options: Any) -> None:
+        start(rig, nodes, **options)
+        rig.rod.bend[:] *= 1.02
+
+    monkeypatch.setattr(system, "lay_out", off)
+    monkeypatch.setattr(Rig, "__init__", start_off)
+    (group,) = gather([name]).groups
+    caught = {entry.case for entry in group.entries if entry.verdict != "pass"}
+    missed = {entry.case for entry in group.entries} - caught
+    assert not [case for case in missed if not any(word in case for word in indifferent)]
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong", "factor", "caught"),
+    [
+        ("dynamics", "mass", 1.05, ("no field", "small swing", "along", "against")),
+        ("dynamics", "axial_inertia", 1.05, ("wave of twist",)),
+        ("contact", "bending_stiffness", 1.06, ("bottom", "wound up", "dhat = 0.02 mm", "narrow")),
+        ("consistency", "bending_stiffness", 1.02, ("sensitivities",)),
+        ("engines", "bending_stiffness", 1.02, ("cantilever",)),
+    ],
+)
+def test_a_few_percent_off_are_found_out(
+    name: str, wrong: str, factor: float, caught: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In each of these cases there is a line that fails."""
+    right = system.lay_out
+
+    def off(wire: Wire) -> Mesh:
+        mesh = right(wire)
+        return replace(mesh, **{wrong: factor * getattr(mesh, wrong)})
+
+    monkeypatch.setattr(system, "lay_out", off)
+    (group,) = gather([name]).groups
+    if name == "engines" and group.entries[0].verdict == "skipped":
+        pytest.skip("There is no other engine.")
+    failed = [entry.case for entry in group.entries if entry.verdict == "fail"]
+    for part in caught:
+        assert any(part in case for case in failed), part
 
 
 @pytest.mark.parametrize(

@@ -27,15 +27,15 @@ from magwire.wire import Section, Wire
 GROUP = "elastica"
 THIN = 0.1e-3  # m: L = 1000 r, so that stretching is out of sight
 FINE = 200
-"""Nodes where the wire turns by more than half a circle in all."""
+"""Nodes where the wire may turn by more than half a circle in all."""
 MESHES = (26, 51, 101, 201)
 POINTS = 2 * NODES - 1
 """Of a reference: the nodes and the middles between them."""
 LOAD = 1e-2
 
-BISSHOPP = "Bisshopp & Drucker 1945, elliptic integrals"
-EULER = "Euler 1744; Timoshenko & Gere 1961"
-BVP = "planar elastica with EI(s), scipy.integrate.solve_bvp"
+BISSHOPP = "Bisshopp & Drucker 1945"
+EULER = "Timoshenko & Gere 1961"
+BVP = "planar elastica, solve_bvp"
 
 
 def evidence(full: bool) -> Iterator[Line | Curve]:
@@ -75,8 +75,8 @@ def _tip_force(full: bool) -> Iterator[Line | Curve]:
                errors[-1], CLOSE, order=slope, expected_order=2.0)  # fmt: skip
     fine = np.linspace(0.05, 10.0, 60)
     line = np.array([pendulum.under_force(p, np.pi / 2.0) for p in fine]).T
-    found = np.array([pulled(wire(), (0.0, p)).tip[:2] / L for p in (0.5, 1, 2, 3, 5, 7, 10)]).T
-    points = np.array([0.5, 1, 2, 3, 5, 7, 10])
+    points = np.array([0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0])
+    found = np.array([pulled(wire(), (0.0, p)).tip[:2] / L for p in points]).T
     yield Curve(
         "Cantilever under a tip force",
         "P L²/EI",
@@ -129,7 +129,7 @@ def _euler(full: bool) -> Iterator[Line]:
     def stands(q: float) -> bool:
         return free(wire(), gravity=(-q * unit, 0.0, 0.0)).equilibrium(L).stable
 
-    source = "Greenhill 1881, root of a Bessel function"
+    source = "Greenhill 1881"
     yield _load("column under its own weight, q L^3/EI", exact, critical(stands, exact), source)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,9 +38,9 @@ STEEP = 150
 a magnet of L/50, which would have two edges, by more than 90 degrees."""
 MESHES = (26, 51, 101, 201)
 
-ELASTICA = "hard-magnetic elastica (Wang et al. 2020), elliptic integrals"
-KIRCHHOFF = "Kirchhoff rod in space, scipy.integrate.solve_bvp"
-CHARGES = "charges -M and +M at the two ends"
+ELASTICA = "Wang et al. 2020, elliptic integrals"
+KIRCHHOFF = "Kirchhoff rod, solve_bvp"
+CHARGES = "charges -M, +M at the ends"
 
 
 def evidence(full: bool) -> Iterator[Line | Curve]:
@@ -183,7 +184,7 @@ def _rigid_tip(full: bool) -> Iterator[Line]:
         exact = pendulum.dipole(strength, np.radians(degrees), rigid)
         state = _at(wire, strength / rigid, degrees)
         case = f"rigid tip of {rigid:g} L, field at {degrees:g} degrees, m B L/EI = {strength:g}"
-        yield from compare(GROUP, case, state, exact, "arc of a circle, torque m B sin")
+        yield from compare(GROUP, case, state, exact, "arc of a circle")
 
 
 MIXED = ((0.0, 1.0, 0.0), (0.6, 0.0, 0.8), (0.0, -0.8, 0.6), (0.5, 0.7, 0.51))
@@ -191,24 +192,29 @@ FIELDS = ((1.0, 2.0, 1.5), (-1.0, 3.0, 2.0), (2.0, -4.0, 3.0))
 TWISTING = 2.0 / 3.0  # GJ/EI of STUFF
 
 
+def _mixed(m: tuple[float, float, float], **options: Any) -> Wire:
+    """Magnetised along m of (m1, m2, t), with the same size for all."""
+    return magnet(magnetization=tuple(20e3 * np.array(m) / np.linalg.norm(m)), **options)
+
+
 def _space(full: bool) -> Iterator[Line | Curve]:
     """Three components of magnetisation: the wire bends in space and twists."""
+    unit = free(magnet()).system.scales.flux_density
     cases = [(m, b) for m in MIXED for b in FIELDS] if full else [(MIXED[3], FIELDS[0])]
     for number, (m, b) in enumerate(cases):
-        unit = np.array(m) / np.linalg.norm(m)
-        wire = magnet(NODES, magnetization=tuple(20e3 * unit))
-        flux_density = np.array(b) * free(wire).system.scales.flux_density
         case = f"magnetised along {m} of (m1, m2, t), b = {b}"
-        field = UniformField(tuple(flux_density.tolist()))
-        yield from _compare_in_space(case, wire, field, unit, show=number == len(cases) - 1)
+        field = UniformField((b[0] * unit, b[1] * unit, b[2] * unit))
+        yield from _compare_in_space(case, _mixed(m), field, show=number == len(cases) - 1)
     uneven = _uneven()
     for name, source in uneven.items() if full else ():
-        yield from _compare_in_space(name, magnet(), source, np.array([0.0, 0.0, 1.0]))
-    unit = np.array(MIXED[3]) / np.linalg.norm(MIXED[3])
-    wire = magnet(NODES, magnetization=tuple(20e3 * unit))
+        yield from _compare_in_space(name, magnet(), source)
     name, source = list(uneven.items())[-1]
-    case = f"magnetised along {MIXED[3]} of (m1, m2, t), {name}"
-    yield from _compare_in_space(case, wire, source, unit)
+    case = f"magnetised along {MIXED[3]} of (m1, m2, t)"
+    yield from _compare_in_space(f"{case}, {name}", _mixed(MIXED[3]), source)
+    if full:
+        curved = _mixed(MIXED[3], rest_curvature=(0.8 / L, -0.5 / L))
+        case += ", rest curvature 0.8/L towards m1, -0.5/L towards m2, gradient field"
+        yield from _compare_in_space(case, curved, uneven["gradient field"])
 
 
 def _uneven() -> dict[str, FieldSource]:
@@ -227,7 +233,7 @@ def _uneven() -> dict[str, FieldSource]:
 
 
 def _compare_in_space(
-    case: str, wire: Wire, source: FieldSource, unit: Array, *, show: bool = False
+    case: str, wire: Wire, source: FieldSource, *, show: bool = False
 ) -> Iterator[Line | Curve]:
     sim = free(wire)
     state = sim.equilibrium(L, source)
@@ -242,7 +248,14 @@ def _compare_in_space(
         [guide.director, np.cross(guide.direction, guide.director), guide.direction]
     )
     points = 2 * wire.nodes - 1
-    exact = kirchhoff.clamped(frame, unit, field, twisting=TWISTING, points=points)
+    exact = kirchhoff.clamped(
+        frame,
+        np.array(wire.body.moment_per_length) / wire.moment_per_length,
+        field,
+        twisting=TWISTING,
+        rest=_darboux(wire),
+        points=points,
+    )
     away = np.linalg.norm(state.positions / L - exact.place[::2], axis=1)
     yield Line(GROUP, case, "largest distance of a node from its place", "L", 0.0, KIRCHHOFF,
                float(away.max()), CLOSE)  # fmt: skip
@@ -262,6 +275,12 @@ def _compare_in_space(
         yield Curve(f"Wire {case}", "s / L", "place / L", series)
 
 
+def _darboux(wire: Wire) -> Array:
+    """Rest curvature as a rotation: towards m1 is about m2, towards m2 about -m1."""
+    first, second = wire.body.rest_curvature
+    return L * np.array([-second, first, 0.0])
+
+
 def _charges(full: bool) -> Iterator[Line]:
     """All forces of the field on a wire magnetised along its tangent act at its ends."""
     wire = magnet()
@@ -274,7 +293,7 @@ def _charges(full: bool) -> Iterator[Line]:
         torque = charge * (np.cross(ends[1], b[1]) - np.cross(ends[0], b[0]))
         scale = free(wire).system.scales
         pairs = zip(
-            ("force", "torque about the clamp"),
+            ("force", "torque"),
             (force / scale.force, torque / (scale.force * L)),
             (-load for load in guide_load(state)),
             ("EI/L^2", "EI/L"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import io
 from html import escape
-from itertools import cycle
+from itertools import cycle, groupby
 from typing import Any
 
 from magwire.verify.evidence import NODES, ORDER_TOLERANCE, Curve, Line
@@ -20,7 +20,7 @@ th { text-align: left; border-bottom: 1.5px solid #6b7a87; }
 th, td { padding: 0.25em 0.7em 0.25em 0; vertical-align: top; }
 tr + tr td { border-top: 1px solid #e3e8ec; }
 td.number, th.number { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
-td.source { color: #6b7a87; } dt { color: #6b7a87; } dd { margin: 0; }
+td.source { color: #6b7a87; min-width: 16em; } dt { color: #6b7a87; } dd { margin: 0; }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: 0.1em 1em; }
 .pass { color: #00704f; } .fail { color: #b3261e; font-weight: bold; } .skipped { color: #8a6100; }
 .plots { display: flex; flex-wrap: wrap; gap: 1em; margin-top: 1em; } .plots img { width: 370px; }
@@ -64,7 +64,8 @@ def to_html(report: Report) -> str:
 
 def _section(group: Group) -> str:
     heads = "".join(_cell("th", name, name in NUMBERS) for name in (*HEADINGS, "verdict"))
-    rows = "".join(_row(entry) for entry in group.entries)
+    cases = [list(entries) for _, entries in groupby(group.entries, key=lambda e: e.case)]
+    rows = "".join(_row(e, len(case) if e is case[0] else 0) for case in cases for e in case)
     plots = "".join(_image(curve) for curve in group.curves)
     return (
         f"<h2>{escape(group.title)}</h2><table><thead><tr>{heads}</tr></thead>"
@@ -72,14 +73,17 @@ def _section(group: Group) -> str:
     )
 
 
-def _row(entry: Entry) -> str:
+def _row(entry: Entry, rows: int) -> str:
+    """A row; the case is named once for all ``rows`` that it has, in the first of them."""
+    name = f'<td rowspan="{rows}">{escape(entry.case)}</td>' if rows else ""
     verdict = f'<td class="{entry.verdict}">{entry.verdict}</td>'
     if not isinstance(entry, Line):
-        case, reason = escape(entry.case), escape(entry.reason)
-        return f'<tr><td>{case}</td><td colspan="{len(HEADINGS) - 1}">{reason}</td>{verdict}</tr>'
+        return (
+            f'<tr>{name}<td colspan="{len(HEADINGS) - 1}">{escape(entry.reason)}</td>{verdict}</tr>'
+        )
     reference, *others = numbers(entry)
     quantity = entry.quantity + (f" [{entry.unit}]" if entry.unit else "")
-    cells = _cell("td", entry.case) + _cell("td", quantity) + _cell("td", reference, True)
+    cells = name + _cell("td", quantity) + _cell("td", reference, True)
     cells += f'<td class="source">{escape(entry.source)}</td>'
     cells += "".join(_cell("td", text, True) for text in others)
     return f"<tr>{cells}{verdict}</tr>"

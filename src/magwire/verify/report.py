@@ -19,7 +19,7 @@ from magwire.errors import InputError
 from magwire.verify.evidence import NODES, Curve, Line, Raised, Skipped, Verdict
 
 if TYPE_CHECKING:
-    from rich.console import Console, RenderableType
+    from rich.console import RenderableType
 
 GROUPS = {
     "elastica": "Elastica",
@@ -32,6 +32,9 @@ GROUPS = {
     "engines": "Another engine",
 }
 """The groups, each a module of this package with a function ``evidence``, and their titles."""
+
+FILE_WIDTH = 160
+"""Width of the table where it does not go to a terminal."""
 
 Entry = Line | Skipped | Raised
 
@@ -215,13 +218,13 @@ def numbers(line: Line) -> list[str]:
     ]
 
 
-def show(
-    names: Sequence[str] = tuple(GROUPS), *, full: bool = False, console: Console | None = None
-) -> Report:
+def show(names: Sequence[str] = tuple(GROUPS), *, full: bool = False) -> Report:
     """Run groups and print each as soon as it is there; what runs is said on standard error."""
     from rich.console import Console
 
-    screen = Console() if console is None else console
+    screen = Console()
+    if not screen.is_terminal:
+        screen.width = max(screen.width, FILE_WIDTH)
     progress = Console(stderr=True)
     with progress.status("") as status:
 

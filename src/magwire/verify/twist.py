@@ -25,7 +25,7 @@ RIGID = 7  # ways in which a ring moves at no cost: three, three, and about its 
 TURNS = 20
 
 MICHELL = "Michell 1889; Zajac 1962"
-COYNE = "Coyne 1990; van der Heijden & Thompson 2000"
+COYNE = "Coyne 1990"
 
 
 def evidence(full: bool) -> Iterator[Line | Curve]:
@@ -84,7 +84,7 @@ def clamped_moment(nodes: int, tension: float, expected: float) -> float:
 
 def _clamped(full: bool) -> Iterator[Line | Curve]:
     """The rotation of the end is M L/GJ up to there; with it, the mesh gets finer."""
-    source = "Greenhill 1883; clamped: characteristic equation"
+    source = "characteristic equation"
     tensions = (-30.0, -20.0, 0.0, 20.0, 100.0, 400.0) if full else (0.0, 100.0)
     for tension in tensions:
         exact = twisted.clamped_moment(tension)
@@ -205,7 +205,7 @@ def _writhe(full: bool) -> Iterator[Line]:
         slope = order(1.0 / np.array(sizes), errors)
         case = f"ring bent to an eight that is {2 * height:g} high, {sizes[0]} to {sizes[-1]} nodes"
         yield Line(GROUP, case, "writhe, less the turns of twist", "turns", exact,
-                   "Gauss's integral; Călugăreanu 1961, Fuller 1971", found[-1], CLOSE,
+                   "Fuller 1971, Gauss's integral", found[-1], CLOSE,
                    order=slope, expected_order=2.0)  # fmt: skip
 
 
@@ -227,7 +227,7 @@ def _frames() -> Iterator[Line]:
     exact = TURNS * twisted.cone_area(angle, steps)
     yield Line(GROUP, f"half of a wire led around a cone, {TURNS} turns",
                "twist that the frames have counted", "rad", exact,
-               "area of a polygon on the sphere (Girard)", led_around(angle, steps),
+               "area of a spherical polygon", led_around(angle, steps),
                EXACT * exact)  # fmt: skip
     rig = helix(300, 51.0, 900.0)
     energy, twist = rig.energy(), _twist(rig)

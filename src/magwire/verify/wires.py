@@ -103,7 +103,9 @@ def crossing(stiffness: Callable[[float], float], expected: float) -> float:
 
 
 def order(sizes: ArrayLike, errors: ArrayLike) -> float:
-    """Slope of log(error) over log(size): the order of convergence."""
+    """Slope of log(error) over log(size), the order of convergence; NaN if an error is none."""
+    if not np.all(np.isfinite(errors) & (np.asarray(errors) > 0.0)):
+        return float("nan")
     return float(np.polyfit(np.log(sizes), np.log(errors), 1)[0])
 
 
@@ -125,8 +127,8 @@ def guide_load(state: Equilibrium) -> tuple[Array, Array]:
     model = (system.rod, point.field, system.new_wall(), system.walls)
     still = Motion(0.0, work.target)
     assemble(model, point.state, point.mouth, still, work.gradient, work.no_band)
-    first = point.mouth.held - 1  # all that is free has no load left over
-    rows, tangents = work.gradient[first:], point.state.tangent[first:]
-    torque = np.cross(point.state.q[first:, :3], rows[:, :3]).sum(axis=0)
-    torque += (rows[:-1, 3:] * tangents).sum(axis=0)  # turning an edge turns its frame along
-    return rows[:, :3].sum(axis=0), torque
+    first = point.mouth.held - 1  # the guide holds an edge: two nodes, one angle
+    held = work.gradient[first : first + 2]
+    torque = np.cross(point.state.q[first : first + 2, :3], held[:, :3]).sum(axis=0)
+    torque += held[0, 3] * point.state.tangent[first]  # turning an edge turns its frame along
+    return held[:, :3].sum(axis=0), torque
