@@ -11,6 +11,7 @@ from magwire.engine.point import Point
 from magwire.engine.sampling import sample
 from magwire.engine.statics import Equilibrium
 from magwire.field import FieldSource
+from magwire.kernels.arrays import Work
 from magwire.kernels.march import Plan, Tally, march
 from magwire.kernels.newton import CONVERGED, copy_state
 
@@ -58,7 +59,8 @@ def let_go(start: Equilibrium, source: FieldSource, time_step: float, steps: int
     plan = Plan(np.full(2, feed), np.full(2, start.twist), time_step, system.damping, True)
     limits = system.step_limits()._replace(tolerance=1e-8, step=0.0)
     velocity, work = np.zeros_like(state.q), system.new_work()
-    rows = [_row(point, velocity)]
+    spare = system.new_work()
+    rows = [_row(point, velocity, spare)]
     for _ in range(steps):
         tally = Tally(np.zeros(4), np.zeros(3))
         _, _, status = march(
@@ -66,14 +68,14 @@ def let_go(start: Equilibrium, source: FieldSource, time_step: float, steps: int
         )
         if status != CONVERGED or tally.counts[3] > 0:
             raise RuntimeError("A time step did not converge, or not in one piece.")
-        rows.append(_row(point, velocity))
+        rows.append(_row(point, velocity, spare))
     columns: list[Array] = [np.array(column) for column in zip(*rows, strict=True)]
     time = time_step * np.arange(0.0, steps + 1.0)
     positions, velocities, energy, force = columns
     return Swing(time, positions, velocities, energy, force, mouth.held)
 
 
-def _row(point: Point, velocity: Array) -> tuple[Array, Array, float, Array]:
+def _row(point: Point, velocity: Array, work: Work) -> tuple[Array, Array, float, Array]:
     """Positions, velocities, energy and the guide's force at one time, in SI."""
     system, held = point.system, point.mouth.held
     length, force = system.wire.length, system.scales.force
@@ -81,7 +83,7 @@ def _row(point: Point, velocity: Array) -> tuple[Array, Array, float, Array]:
     speed = velocity[1:, :3] * length
     kinetic = 0.5 * float(mass @ (speed[held:] ** 2).sum(axis=1))
     kinetic += 0.5 * float(inertia @ velocity[held:-1, 3] ** 2)
-    energy, gradient = point.energy(system.new_work())
+    energy, gradient = point.energy(work)
     return (
         point.state.q[1:, :3] * length,
         speed,

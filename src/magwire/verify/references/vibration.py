@@ -7,6 +7,7 @@ the torque of the field on the magnet acts like a tension of fixed direction.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import cos, cosh, sin, sinh, sqrt
 
 import numpy as np
@@ -34,18 +35,22 @@ def _tip_conditions(omega: float, b: float) -> Array:
     return np.array([moment, shear]) / big
 
 
+@lru_cache
 def frequencies(b: float, count: int) -> Array:
     """Lowest angular frequencies, shape (count,); b above -pi^2/4, where the beam buckles."""
 
     def value(omega: float) -> float:
-        return float(np.linalg.det(_tip_conditions(omega, b)))
+        (m1, m2), (q1, q2) = _tip_conditions(omega, b).tolist()
+        return float(m1 * q2 - m2 * q1)
 
     found: list[float] = []
-    low, step = 1e-6, 0.05
+    low, step = 1e-6, 0.2  # frequencies are much farther apart
+    before = value(low)
     while len(found) < count:
-        if value(low) * value(low + step) < 0.0:
+        after = value(low + step)
+        if before * after < 0.0:
             found.append(float(brentq(value, low, low + step, xtol=1e-12, rtol=1e-14)))
-        low += step
+        low, before = low + step, after
     return np.array(found)
 
 
