@@ -138,13 +138,20 @@ def settle(
         mujoco.mj_step(model, data)
     seconds = (time.perf_counter() - clock) / steps
     mujoco.mj_forward(model, data)
+    if not np.abs(data.qvel).max() < AT_REST:
+        raise RuntimeError("MuJoCo's rod has not come to rest.")
+    return Settled(data.flexvert_xpos.copy(), _wall_force(model, data), seconds, steps)
+
+
+def _wall_force(model: Any, data: Any) -> float:
+    """Sum of the sizes of the normal forces of all contacts [N]."""
+    import mujoco
+
     force, total = np.zeros(6), 0.0
     for i in range(data.ncon):
         mujoco.mj_contactForce(model, data, i, force)
         total += abs(float(force[0]))
-    if not np.abs(data.qvel).max() < AT_REST:
-        raise RuntimeError("MuJoCo's rod has not come to rest.")
-    return Settled(data.flexvert_xpos.copy(), total, seconds, steps)
+    return total
 
 
 def _couples(nodes: Array, moment: float, flux: Array) -> Array:

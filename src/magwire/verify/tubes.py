@@ -32,9 +32,10 @@ STIFFNESS = WIRE.bending_stiffness
 
 def evidence(full: bool) -> Iterator[Line | Curve]:
     """Loads of snaking and of winding, and the shape of the helix."""
-    yield from _snaking(60.0)
+    yield from _snaking(60.0, 3.0)
+    yield from _snaking(30.0, 0.0)
     if full:
-        yield from _snaking(30.0)
+        yield from _snaking(30.0, 3.0)
     yield from _weightless_helix()
     yield from _heavy_helix()
 
@@ -83,12 +84,15 @@ class _Rig:
         return GradientField((self.upright, 0.0, 0.0), gradient, (place, 0.0, 0.0))
 
 
-def _snaking(ratio: float) -> Iterator[Line]:
-    """The load at which the wire leaves the bottom line; L is so many (EI r/w)^(1/4)."""
+def _snaking(ratio: float, upright: float) -> Iterator[Line]:
+    """The load at which the wire leaves the bottom line; L is so many (EI r/w)^(1/4).
+
+    ``upright``: flux density at the tip [T], which keeps its direction; without it the tip is free.
+    """
     offset = 0.2e-3
     length = L / ratio
     weight = STIFFNESS * offset / length**4
-    rig = _Rig(offset, weight, 2e-6, entry=8.0 * length, upright=3.0)
+    rig = _Rig(offset, weight, 2e-6, entry=8.0 * length, upright=upright)
     sim = rig.simulation(weight)
     long = tube.sinusoidal_load(STIFFNESS, weight, offset)
 
@@ -98,7 +102,7 @@ def _snaking(ratio: float) -> Iterator[Line]:
         stays = state.stable and float(np.abs(state.positions[:, 1]).max()) < 1e-2 * offset
         return state if stays else None
 
-    low, high = 0.6 * long, 1.6 * long
+    low, high = 0.1 * long, 1.6 * long
     state = straight(low, None)
     while high - low > 1e-4 * long:
         middle = 0.5 * (low + high)
@@ -107,7 +111,8 @@ def _snaking(ratio: float) -> Iterator[Line]:
             high = middle
         else:
             low, state = middle, trial
-    case = f"wire on the bottom of a tube, L = {ratio:g} (EI r/w)^¼"
+    tip = "tip kept along it" if upright else "free tip"
+    case = f"wire on the bottom of a tube, {tip}, L = {ratio:g} (EI r/w)^¼"
     unit = "(EI w/r)^½"
     expected = _beam_on_the_bottom(rig, weight)
     yield Line(
@@ -141,7 +146,7 @@ def _beam_on_the_bottom(rig: _Rig, weight: float) -> float:
         lambda s: np.where(s > begin, upright, 0.0),
         ends=tube.Ends(),
         # div B = 0: off the axis the gradient pushes the magnet's two poles sideways.
-        push_at={L * (1.0 - 1e-12): 0.5 / MAGNET, begin: -0.5 / MAGNET},
+        push_at={L * (1.0 - 1e-12): -0.5 / MAGNET, begin: 0.5 / MAGNET},
         elements=120,
     )
 

@@ -41,6 +41,57 @@ class Pressed:
     misfit: float
 
 
+@dataclass(frozen=True)
+class _Channel:
+    """Energy and gaps of a chain by the angles of its links."""
+
+    step: float
+    bend: float
+    width: float
+    entry: float
+    springs: Array
+    magnet: Array
+
+    def joints(self, angles: Array) -> Array:
+        """Ends of the links, shape (links, 2)."""
+        links = self.step * np.column_stack((np.cos(angles), np.sin(angles)))
+        ends: Array = np.cumsum(links, axis=0)
+        ends[:, 0] -= self.entry
+        return ends
+
+    def outwards(self, angles: Array) -> tuple[Array, Array]:
+        """Distance of the joints from the centre of the bend, and unit vectors away from it.
+
+        In the straight channel the centre is as far from its axis, and goes along.
+        """
+        away = self.joints(angles) - np.array([0.0, self.bend])
+        away[:, 0] = np.maximum(away[:, 0], 0.0)
+        distance: Array = np.sqrt((away**2).sum(axis=1))
+        return distance, away / distance[:, None]
+
+    def energy(self, angles: Array) -> tuple[float, Array]:
+        """Energy and its derivatives: torques on the links."""
+        turn = np.diff(angles, prepend=0.0)
+        moment = self.springs * turn
+        x, y = self.magnet.T
+        value = 0.5 * float(moment @ turn) - float(x @ np.cos(angles) + y @ np.sin(angles))
+        torque = moment - np.append(moment[1:], 0.0) + x * np.sin(angles) - y * np.cos(angles)
+        return value, torque
+
+    def gaps(self, angles: Array) -> Array:
+        """To the outer and to the inner wall, shape (2 links,)."""
+        distance, _ = self.outwards(angles)
+        outer, inner = self.bend + self.width, self.bend - self.width
+        return np.concatenate((outer - distance, distance - inner))
+
+    def slopes(self, angles: Array) -> Array:
+        """Of the gaps by the angles, shape (2 links, links)."""
+        _, outwards = self.outwards(angles)
+        turned = self.step * np.column_stack((-np.sin(angles), np.cos(angles)))
+        by_angle = np.tril(outwards @ turned.T)
+        return np.concatenate((-by_angle, by_angle))
+
+
 def press(
     links: int,
     step: float,
@@ -56,61 +107,32 @@ def press(
     length of a straight channel before the bend; the clamp is at its begin, the bend at the origin.
     """
     springs = np.full(links, 1.0 / step)
-    springs[0] *= 2.0
+    springs[0] *= 2.0  # half a cell
     magnet = np.zeros((links, 2)) if field is None else field
-    centre = np.array([0.0, bend])
-
-    def joints(angles: Array) -> Array:
-        ends: Array = step * np.cumsum(np.column_stack((np.cos(angles), np.sin(angles))), axis=0)
-        ends[:, 0] -= entry
-        return ends
-
-    def from_centre(angles: Array) -> Array:
-        """Away from the centre of the bend; in the straight channel, from its own axis."""
-        away: Array = joints(angles) - centre
-        away[:, 0] = np.maximum(away[:, 0], 0.0)
-        return away
-
-    def energy(angles: Array) -> tuple[float, Array]:
-        turn = np.diff(angles, prepend=0.0)
-        moment = springs * turn
-        value = 0.5 * float(moment @ turn)
-        value -= float((magnet[:, 0] * np.cos(angles) + magnet[:, 1] * np.sin(angles)).sum())
-        slope = moment - np.append(moment[1:], 0.0)
-        slope += magnet[:, 0] * np.sin(angles) - magnet[:, 1] * np.cos(angles)
-        return value, slope
-
-    def gaps(angles: Array) -> Array:
-        away = np.linalg.norm(from_centre(angles), axis=1)
-        return np.concatenate((bend + width - away, away - (bend - width)))
-
-    def slopes(angles: Array) -> Array:
-        """Of the gaps by the angles, shape (2 links, links)."""
-        away = from_centre(angles)
-        outwards = away / np.linalg.norm(away, axis=1)[:, None]
-        turned = step * np.column_stack((-np.sin(angles), np.cos(angles)))
-        by_angle = np.tril(outwards @ turned.T)
-        return np.concatenate((-by_angle, by_angle))
-
-    start = np.maximum(step * (np.arange(links) + 0.5) - entry, 0.0) / bend
+    channel = _Channel(step, bend, width, entry, springs, magnet)
     found = minimize(
-        energy,
-        start,
+        channel.energy,
+        np.maximum(step * (np.arange(links) + 0.5) - entry, 0.0) / bend,
         jac=True,
         method="SLSQP",
-        constraints={"type": "ineq", "fun": gaps, "jac": slopes},
+        constraints={"type": "ineq", "fun": channel.gaps, "jac": channel.slopes},
         options={"maxiter": 2000, "ftol": 1e-14},
     )
     angles = np.asarray(found.x)
-    touching = np.flatnonzero(gaps(angles) < TOUCHING)
-    torque = energy(angles)[1]
-    if len(touching) > 0:
-        forces, misfit = nnls(slopes(angles)[touching].T, torque)
-    else:
-        forces, misfit = np.zeros(0), np.linalg.norm(torque)
-    away = from_centre(angles)
-    outwards = away / np.linalg.norm(away, axis=1)[:, None]
-    wall_force = np.zeros((links, 2))
-    for i, force in zip(touching, forces, strict=True):
-        wall_force[i % links] += (-1.0 if i < links else 1.0) * force * outwards[i % links]
-    return Pressed(joints(angles), wall_force, float(found.fun), float(misfit))
+    wall_force, misfit = _wall_forces(channel, angles)
+    return Pressed(channel.joints(angles), wall_force, float(found.fun), misfit)
+
+
+def _wall_forces(channel: _Channel, angles: Array) -> tuple[Array, float]:
+    """The multipliers as forces, shape (links, 2), and what they leave over."""
+    _, torque = channel.energy(angles)
+    touching = np.flatnonzero(channel.gaps(angles) < TOUCHING)
+    wall_force = np.zeros((len(angles), 2))
+    if len(touching) == 0:
+        return wall_force, float(np.linalg.norm(torque))
+    sizes, misfit = nnls(channel.slopes(angles)[touching].T, torque)
+    _, outwards = channel.outwards(angles)
+    for i, size in zip(touching, sizes, strict=True):
+        inner, joint = divmod(int(i), len(angles))
+        wall_force[joint] += (1.0 if inner else -1.0) * size * outwards[joint]
+    return wall_force, float(misfit)

@@ -72,20 +72,24 @@ def least_load(
         for point, weight in zip(*np.polynomial.legendre.leggauss(4), strict=True):
             x = 0.5 * (1.0 + point)
             value, slope, bend = _hermite(x, h)
-            s = np.array([h * (e + x)])
-            area = 0.5 * weight * h
+            s, area = np.array([h * (e + x)]), 0.5 * weight * h
             own = stiffness * np.outer(bend, bend) + foundation(s)[0] * np.outer(value, value)
             fixed[rows, rows] += area * (own + tension(s)[0] * np.outer(slope, slope))
             load[rows, rows] += area * carried(s)[0] * np.outer(slope, slope)
     for place, factor in (push_at or {}).items():
         e = min(int(place / h), elements - 1)
         value, _, _ = _hermite(place / h - e, h)
-        rows = slice(2 * e, 2 * e + 4)
-        load[rows, rows] -= factor * np.outer(value, value)
+        load[2 * e : 2 * e + 4, 2 * e : 2 * e + 4] -= factor * np.outer(value, value)
     held = np.concatenate((ends.begin, np.zeros(2 * elements - 2, dtype=bool), ends.end))
-    free = np.flatnonzero(~held)
+    return _smallest(fixed, load, np.flatnonzero(~held))
+
+
+def _smallest(fixed: Array, load: Array, free: NDArray[np.intp]) -> float:
+    """Least F of (fixed - F load) y = 0.
+
+    ``load`` need not be definite, ``fixed`` is: the largest 1/F of load y = (1/F) fixed y.
+    """
     a, b = (csc_array(matrix[np.ix_(free, free)]) for matrix in (fixed, load))
-    # b is not positive definite, a is: the largest 1/F of b y = (1/F) a y.
     value = eigsh(b, k=1, M=a, which="LA", return_eigenvectors=False)
     return 1.0 / float(value[0])
 
