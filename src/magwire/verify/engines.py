@@ -158,7 +158,7 @@ def _shapes(case: str, theirs: Array, sim: Simulation, flux: Array, feed: float)
     ours = sim.equilibrium(feed, flux).positions[:: max(1, NODES // 40)]
     inside = ours[ours[:, 0] > -0.05 * L]
     return Curve(
-        case.capitalize(),
+        case[:1].upper() + case[1:],
         "x [L]",
         "y [L]",
         {

@@ -248,7 +248,7 @@ def _weightless_helix() -> Iterator[Line | Curve]:
         "turns around the tube",
         {
             "k² = F/2EI": (s / L, straight / (2.0 * np.pi), "line"),
-            "magwire": (s[::8] / L, coiled.angle[::8] / (2.0 * np.pi), "points"),
+            "magwire": (s[8::8] / L, coiled.angle[8::8] / (2.0 * np.pi), "points"),
         },
     )
 
