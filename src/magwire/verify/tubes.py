@@ -112,7 +112,7 @@ def _snaking(ratio: float, upright: float) -> Iterator[Line]:
         else:
             low, state = middle, trial
     tip = "tip kept along it" if upright else "free tip"
-    case = f"wire on the bottom of a tube, {tip}, L = {ratio:g} (EI r/w)^¼"
+    case = f"wire on the bottom of a tube, {tip}, L = {ratio:g} (EI r/w)^¼, {NODES} nodes"
     unit = "(EI w/r)^½"
     expected = _beam_on_the_bottom(rig, weight)
     yield Line(
@@ -228,7 +228,7 @@ def _weightless_helix() -> Iterator[Line | Curve]:
     s = np.linspace(0.0, L, NODES)
     expected, force = tube.helix(STIFFNESS, coiled.load, coiled.offset)
     wall = np.linalg.norm(coiled.state.wall_force, axis=1)[middle].mean() * (NODES - 1) / L
-    case = f"weightless wire wound up in a tube, {turns} turns"
+    case = f"weightless wire wound up in a tube, {turns} turns, {NODES} nodes"
     scale = float(np.sqrt(STIFFNESS / coiled.load))
     yield Line(
         GROUP, case, "turn per length k", "(F/EI)^½", expected * scale,
@@ -271,7 +271,7 @@ def _heavy_helix() -> Iterator[Line]:
     loads, energies = np.array(found).T
     fit = np.polyfit(energies, loads, 1)
     yield Line(
-        GROUP, "heavy wire wound up in a tube", "load of equal energy, wound and straight",
+        GROUP, f"heavy wire wound up in a tube, {NODES} nodes", "load of equal energy, wound and straight",
         "(EI w/r)^½", critical,
         "least energy of a helix of any course of pitch; 2√2 with a constant one (Chen and others)",
         float(fit[1]), 0.01, relative=True,
