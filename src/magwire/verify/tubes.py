@@ -271,8 +271,8 @@ def _heavy_helix() -> Iterator[Line]:
     loads, energies = np.array(found).T
     fit = np.polyfit(energies, loads, 1)
     yield Line(
-        GROUP, f"heavy wire wound up in a tube, {NODES} nodes", "load of equal energy, wound and straight",
-        "(EI w/r)^½", critical,
+        GROUP, f"heavy wire wound up in a tube, {NODES} nodes",
+        "load of equal energy, wound and straight", "(EI w/r)^½", critical,
         "least energy of a helix of any course of pitch; 2√2 with a constant one (Chen and others)",
         float(fit[1]), 0.01, relative=True,
     )  # fmt: skip
