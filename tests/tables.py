@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import csv
 from functools import lru_cache
-from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.reproduce.authors import curve
+from magwire.published import curve
 
 DATA = Path(__file__).parent / "data"
-AUTHORS = files("magwire.reproduce").joinpath("curves")
 Array = NDArray[np.float64]
 
 
@@ -33,14 +31,13 @@ def critical_load(case: str) -> float:
     return float(rows[0][1])
 
 
-figure = lru_cache(curve)
+figure = curve
 """The numbers of one series of a file of the authors' curves, shape (n, columns)."""
 
 
 @lru_cache
 def control_field() -> tuple[tuple[str, float, float], ...]:
     """Series, push and value of the authors' field in their earlier half-circle."""
-    path = AUTHORS.joinpath("control_halfcircle_field.csv")
-    with path.open(encoding="utf-8") as file:
-        rows = csv.DictReader(file)
-        return tuple((r["series"], float(r["X_push"]), float(r["value"])) for r in rows)
+    colours = ("green_square", "red_circle")
+    rows = [(c, *row) for c in colours for row in figure("control_halfcircle_field", c).tolist()]
+    return tuple(rows)

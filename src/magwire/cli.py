@@ -298,6 +298,42 @@ def passive_beside(result: Path) -> xr.Dataset | None:
     return Result.load(beside / PASSIVE).dataset if compared else None
 
 
+@app.command
+def verify(
+    *,
+    full: Annotated[bool, Parameter(negative="")] = False,
+    only: Annotated[list[str] | None, Parameter(consume_multiple=True)] = None,
+    out: Folder = None,
+    force: Force = False,
+) -> int:
+    """Compare with closed forms and other methods: the evidence that the physics is right.
+
+    Parameters
+    ----------
+    full
+        Run all cases, which takes minutes, and not only the fast ones.
+    only
+        Groups to run: elastica, magnetic, twist, dynamics, contact, authors, consistency, engines.
+    out
+        Folder for the report as verify.html and verify.json; nothing is written if left out.
+    force
+        Overwrite what is there.
+    """
+    from magwire.verify import report
+
+    if out is not None:  # better said before the work than after it
+        check_free(out, force=force)
+        with writing_to(out):
+            pass
+    say_if_compiling()
+    result = report.show(only or tuple(report.GROUPS), full=full)
+    if out is not None:
+        with writing_to(out):
+            for path in report.save(result, out):
+                say(str(path))
+    return 0 if result.passed else 1
+
+
 def carry_out(
     described: Scenario, folder: Path, *, compare: bool = False, force: bool = False
 ) -> int:

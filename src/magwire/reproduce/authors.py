@@ -1,13 +1,11 @@
-"""The authors' own curves, of an earlier geometry (see ``curves/README.md``)."""
+"""The authors' own curves, of an earlier geometry (see ``published/README.md``)."""
 
 from __future__ import annotations
-
-import csv
-from importlib.resources import files
 
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.published import curve
 from magwire.reproduce.runs import Ask
 
 Array = NDArray[np.float64]
@@ -43,13 +41,6 @@ STEERED = Ask(
         "feed.distance=76 mm",
     ),
 )
-
-
-def curve(name: str, series: str) -> Array:
-    """One series of a file, shape (n, columns)."""
-    text = files("magwire.reproduce").joinpath("curves", f"{name}.csv").read_text(encoding="utf-8")
-    rows = [row[1:] for row in csv.reader(text.splitlines()) if row[0] == series]
-    return np.array(rows, dtype=np.float64)
 
 
 def field() -> tuple[Array, Array]:

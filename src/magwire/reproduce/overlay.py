@@ -9,6 +9,7 @@ import matplotlib as mpl
 import numpy as np
 
 from magwire.plot import curves, style
+from magwire.published import curve
 from magwire.reproduce import authors
 from magwire.reproduce.pictures import FORCE_LABEL, canvas, save
 
@@ -41,7 +42,7 @@ def overlay(runs: dict[str, Run], file: Path) -> None:
 
 
 def _forces(ax: Axes, run: Run, drawing: str) -> None:
-    without, given = authors.curve(drawing, "blue_triangle"), authors.curve(drawing, "red_square")
+    without, given = curve(drawing, "blue_triangle"), curve(drawing, "red_square")
     outcome = run.outcome
     push = outcome.push - authors.ENTRY
     ax.plot(push, outcome.tip_force / outcome.unit, color=style.PASSIVE, label="magwire, passive")
@@ -77,7 +78,7 @@ def _shapes(ax: Axes, runs: dict[str, Run]) -> None:
         ("planar_case1", "narrow bend", style.CLEARANCE),
         ("planar_case3", "half-circle", style.FORCE),
     ):
-        wall = authors.curve(drawing, "wall")[:, 1:]
+        wall = curve(drawing, "wall")[:, 1:]
         ax.plot(*wall.T, ".", color=style.LUMEN_EDGE, ms=0.8)
         for push, line in authors.drawn_shapes(drawing):
             ours = shape(runs[name], push)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from magwire.published import curve
 from magwire.reproduce import authors, passive_claims, pictures, setup_claims
 from magwire.reproduce.chapter import Chapter, Part
 from magwire.reproduce.claim import Claim
@@ -128,7 +129,7 @@ def authors_claims(found: dict[str, Run]) -> list[Claim]:
     """Curves, shapes and field of the authors against ours."""
     claims: list[Claim] = []
     for name in ("half-circle", "sinusoid"):
-        without = authors.curve(f"control_{name.replace('-', '')}_force", "blue_triangle")
+        without = curve(f"control_{name.replace('-', '')}_force", "blue_triangle")
         claims.append(
             passive_claims.authors_force(
                 name.capitalize(), found[name].outcome, without, authors.ENTRY
