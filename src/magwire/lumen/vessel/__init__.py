@@ -1,0 +1,1 @@
+"""Vessels from files: lines cleaned, joined into a tree and smoothed."""
