@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from magwire.field import GradientField as GradientField
     from magwire.field import UniformField as UniformField
     from magwire.lumen import Lumen as Lumen
+    from magwire.lumen import Vessel as Vessel
     from magwire.navigate import Prescribed as Prescribed
     from magwire.navigate import Schedule as Schedule
     from magwire.navigate.stable import Demands as Demands
@@ -55,6 +56,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Simulation": ("magwire.simulation", "Simulation"),
     "StableNavigator": ("magwire.navigate.stable", "StableNavigator"),
     "UniformField": ("magwire.field", "UniformField"),
+    "Vessel": ("magwire.lumen", "Vessel"),
     "Wire": ("magwire.wire", "Wire"),
     "load_scenario": ("magwire.scenario", "load"),
     "scenario_names": ("magwire.scenario", "names"),
@@ -80,6 +82,7 @@ __all__ = [
     "Simulation",
     "StableNavigator",
     "UniformField",
+    "Vessel",
     "Wire",
     "__version__",
     "load_scenario",

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from pathlib import Path
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +20,9 @@ from magwire.lumen import shapes
 from magwire.lumen.branch import Bend, Branch
 from magwire.lumen.grid import build, scaled
 from magwire.lumen.tree import BLEND, join
+
+if TYPE_CHECKING:
+    from magwire.lumen.vessel import Spot
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int32]
@@ -242,6 +247,68 @@ class Lumen:
         width = nonnegative("Lumen.tree", "blend", width, "m")
         walls, paths = join(lines, width)
         return cls(walls, blend=width, paths=paths, target=target)
+
+    @classmethod
+    def read(
+        cls,
+        path: str | Path,
+        units: str | None = None,
+        *,
+        entrance: Spot | None = None,
+        target: Spot | None = None,
+        radius: float | str | None = None,
+        scale: float = 1.0,
+        rotation: ArrayLike = (0.0, 0.0, 0.0),
+        translation: ArrayLike = (0.0, 0.0, 0.0),
+        smoothing: float = 0.5,
+    ) -> Lumen:
+        """Vessel from a file of centrelines, or of a surface, whose centrelines are extracted.
+
+        Parameters
+        ----------
+        path
+            The end of its name says which format it is in: VTK (.vtp, .vtk), tables (.csv, .tsv,
+            .dat, .txt), SWC (.swc), SimVascular (.pth), TubeTK (.tre), 3D Slicer (.mrk.json), or a
+            surface (.vtp, .vtk, .stl, .ply, .obj).
+        units
+            Unit of its numbers, such as "mm"; needed unless the file states it.
+        entrance
+            Open end to enter at: its name, its number from one, or a point [m]. A point inside
+            cuts off what is behind it. The widest end if left out.
+        target
+            Outlet to go to, in the same ways; the first one if left out.
+        radius
+            Name of the array that holds it, if that is none of the usual ones, or one radius for
+            all points [m].
+        scale
+            Factor on all lengths.
+        rotation, translation
+            Rotation vector [rad] about the origin, and what is added then [m], shapes (3,).
+        smoothing
+            Length in radii of the lumen; waves shorter than 2 pi times it are taken out.
+
+        Raises
+        ------
+        InputError
+            If the file cannot be used: in one sentence, why.
+
+        See Also
+        --------
+        Vessel : The same, with a record of what was done to what the file holds.
+        """
+        from magwire.lumen.vessel import Vessel
+
+        vessel = Vessel.read(
+            path,
+            units,
+            entrance=entrance,
+            radius=radius,
+            scale=scale,
+            rotation=rotation,
+            translation=translation,
+            smoothing=smoothing,
+        )
+        return vessel.lumen(target)
 
     @classmethod
     def open_space(cls) -> Lumen:

@@ -1,6 +1,7 @@
 """Files of vessels: centrelines and surfaces in the formats that people have.
 
-Each format has a module with ``read(data, radius)``: bytes in, a ``Drawing`` out, or a ``FileFault``.
+Each format has a module with ``read(data, radius)``: bytes in, and a ``Drawing`` out or a
+``FileFaultError``.
 """
 
 from __future__ import annotations
@@ -10,11 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
-from magwire.lumen.files import meshes, simvascular, slicer, swc, tables, tubetk, vtk, vtp
+from magwire.lumen.files import meshes, netcdf, simvascular, slicer, swc, tables, tubetk, vtk, vtp
 from magwire.lumen.files.drawing import (
     LARGEST_FILE,
     Drawing,
-    FileFault,
+    FileFaultError,
     Line,
     Surface,
     checked,
@@ -34,6 +35,7 @@ FORMATS: dict[str, Callable[[bytes, str | None], Drawing]] = {
     ".pth": simvascular.read,
     ".tre": tubetk.read,
     ".json": slicer.read,
+    ".nc": netcdf.read,
     ".stl": lambda data, _: meshes.read(data, "stl"),
     ".ply": lambda data, _: meshes.read(data, "ply"),
     ".obj": lambda data, _: meshes.read(data, "obj"),
@@ -63,13 +65,13 @@ def load(path: str | Path, radius: str | None = None) -> Drawing:
         raise refuse(path, f"must have one of the endings {known}; received {place.suffix!r}")
     try:
         if place.is_dir():
-            raise FileFault("is a folder")
+            raise FileFaultError("is a folder")
         if place.stat().st_size > LARGEST_FILE:
-            raise FileFault(f"is larger than {LARGEST_FILE / 1e6:.0f} MB")
+            raise FileFaultError(f"is larger than {LARGEST_FILE / 1e6:.0f} MB")
         with np.errstate(all="ignore"):
             return checked(reader(place.read_bytes(), radius))
     except OSError as error:
         reason = (error.strerror or "unknown reason").lower()
         raise refuse(path, f"cannot be read: {reason}") from None
-    except FileFault as fault:
+    except FileFaultError as fault:
         raise refuse(path, str(fault)) from None

@@ -13,7 +13,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.lumen.files.drawing import LARGEST_FILE, FileFault
+from magwire.lumen.files.drawing import LARGEST_FILE, FileFaultError
 
 TYPES = {
     "Int8": "i1", "UInt8": "u1", "Int16": "i2", "UInt16": "u2", "Int32": "i4", "UInt32": "u4",
@@ -51,7 +51,7 @@ class Encoding:
         """What the file's first element says."""
         compressor = root.get("compressor", "")
         if compressor not in COMPRESSORS:
-            raise FileFault(f"is compressed by {compressor!r}; expected zlib, LZMA or none")
+            raise FileFaultError(f"is compressed by {compressor!r}; expected zlib, LZMA or none")
         order = ">" if root.get("byte_order") == "BigEndian" else "<"
         header = order + ("u8" if root.get("header_type") == "UInt64" else "u4")
         return cls(order, header, compressor, appended, raw)
@@ -60,7 +60,7 @@ class Encoding:
         """The numbers of one array, shape (n,) or (n, components)."""
         name, kind = element.get("Name", "?"), TYPES.get(element.get("type", ""))
         if kind is None:
-            raise FileFault(f"has an array {name!r} of unknown type {element.get('type')!r}")
+            raise FileFaultError(f"has an array {name!r} of unknown type {element.get('type')!r}")
         style = element.get("format", "ascii")
         try:
             if style == "ascii":
@@ -71,13 +71,13 @@ class Encoding:
             components = int(element.get("NumberOfComponents") or 1)
             return values.reshape(-1, components) if components > 1 else values
         except (ValueError, OverflowError, binascii.Error, zlib.error, lzma.LZMAError):
-            raise FileFault(f"has an array {name!r} that cannot be decoded") from None
+            raise FileFaultError(f"has an array {name!r} that cannot be decoded") from None
 
     def _packed(self, element: Element, style: str) -> bytes:
         if style == "binary":
             return self._unpack("".join((element.text or "").split()).encode("ascii", "replace"))
         if style != "appended":
-            raise FileFault(f"has an array of unknown format {style!r}")
+            raise FileFaultError(f"has an array of unknown format {style!r}")
         offset = int(element.get("offset") or 0)
         if not 0 <= offset <= len(self.appended):
             raise ValueError

@@ -19,7 +19,7 @@ RADII = ("maximuminscribedsphereradius", "radius", "radii", "r")
 """Names of arrays that hold the radius, the first one found counts; case does not matter."""
 
 
-class FileFault(Exception):
+class FileFaultError(Exception):
     """What is wrong with a file: the end of a sentence that starts with the file's name."""
 
 
@@ -61,15 +61,16 @@ class Drawing(NamedTuple):
         Unit of length that the file or its format states; None if it does not.
     arrays
         Names of the arrays that could have been the radius, for messages.
-    smooth
-        Whether the file says that magwire has made it, with lines that are smooth already.
+    entrance
+        Name of the end at which all lines start, in a file that magwire has made: its lines are
+        smooth tubes already. Empty in all others.
     """
 
     lines: tuple[Line, ...] = ()
     surface: Surface | None = None
     unit: str | None = None
     arrays: tuple[str, ...] = ()
-    smooth: bool = False
+    entrance: str = ""
 
 
 def pick_radius(names: tuple[str, ...], wanted: str | None) -> str | None:
@@ -84,13 +85,13 @@ def pick_radius(names: tuple[str, ...], wanted: str | None) -> str | None:
 
     Raises
     ------
-    FileFault
+    FileFaultError
         If there is no array of the name that was asked for.
     """
     if wanted is not None:
         if wanted not in names:
             there = ", ".join(repr(name) for name in names) or "no array"
-            raise FileFault(f"has no array {wanted!r} at its points, but {there}")
+            raise FileFaultError(f"has no array {wanted!r} at its points, but {there}")
         return wanted
     by_case = {name.lower(): name for name in reversed(names)}
     return next((by_case[known] for known in RADII if known in by_case), None)
@@ -135,7 +136,7 @@ def checked(drawing: Drawing) -> Drawing:
 
     Raises
     ------
-    FileFault
+    FileFaultError
         If it holds nothing, too much, or points that are not finite.
     """
     points = [line.points for line in drawing.lines]
@@ -144,19 +145,21 @@ def checked(drawing: Drawing) -> Drawing:
         _check_triangles(drawing.surface)
     count = sum(len(part) for part in points)
     if count == 0:
-        raise FileFault("holds neither lines nor triangles")
+        raise FileFaultError("holds neither lines nor triangles")
     if count > MOST_POINTS:
-        raise FileFault(f"holds {count} points, more than the {MOST_POINTS} that can be used")
+        raise FileFaultError(f"holds {count} points, more than the {MOST_POINTS} that can be used")
     largest = max(float(np.abs(part).max()) for part in points if len(part))
     if not largest < 1e9:  # not a number, too
-        raise FileFault("holds points that are not finite, or farther than 1e9 from the origin")
+        raise FileFaultError(
+            "holds points that are not finite, or farther than 1e9 from the origin"
+        )
     return drawing
 
 
 def _check_triangles(surface: Surface) -> None:
     low, high = int(surface.triangles.min(initial=0)), int(surface.triangles.max(initial=-1))
     if low < 0 or high >= len(surface.points):
-        raise FileFault(
+        raise FileFaultError(
             f"has triangles of points {low} to {high}, but {len(surface.points)} points"
         )
 

@@ -9,7 +9,7 @@ import warnings
 import numpy as np
 
 from magwire.errors import MagwireError
-from magwire.lumen.files.drawing import Drawing, FileFault, Surface
+from magwire.lumen.files.drawing import Drawing, FileFaultError, Surface
 
 
 class MissingLibraryError(MagwireError):
@@ -42,7 +42,7 @@ def read(data: bytes, kind: str) -> Drawing:
         points = np.asarray(mesh.vertices, dtype=np.float64).reshape(-1, 3)
         triangles = np.asarray(mesh.faces, dtype=np.int64).reshape(-1, 3)
     except Exception as error:  # a broken file may raise anything in there
-        raise FileFault(f"is not a .{kind} file that can be read: {_first(error)}") from None
+        raise FileFaultError(f"is not a .{kind} file that can be read: {_first(error)}") from None
     return Drawing(surface=Surface(points, triangles) if len(triangles) else None)
 
 

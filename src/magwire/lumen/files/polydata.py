@@ -9,7 +9,7 @@ import numpy as np
 from magwire.lumen.files.drawing import (
     Array,
     Drawing,
-    FileFault,
+    FileFaultError,
     Indices,
     Line,
     Surface,
@@ -17,8 +17,8 @@ from magwire.lumen.files.drawing import (
     pick_radius,
 )
 
-MARK = "magwire-smooth"
-"""Field array that says that the lines are smooth already."""
+MARK = "magwire-ends"
+"""Field array with the names of the entrance and of the lines' ends, in a file of magwire's."""
 
 
 class PolyData(NamedTuple):
@@ -45,7 +45,7 @@ class PolyData(NamedTuple):
         return cls(np.zeros((0, 3)), {}, [], [])
 
     def joined(self, other: PolyData) -> PolyData:
-        """This one and another behind it."""
+        """The data set with another one behind it."""
         if len(self.points) == 0:
             return other
         shift = len(self.points)
@@ -58,7 +58,7 @@ class PolyData(NamedTuple):
         )
 
 
-def drawn(poly: PolyData, radius: str | None, *, smooth: bool = False) -> Drawing:
+def drawn(poly: PolyData, radius: str | None, ends: tuple[str, ...] = ()) -> Drawing:
     """The lines of a data set or, if it has none, its surface.
 
     Parameters
@@ -67,12 +67,12 @@ def drawn(poly: PolyData, radius: str | None, *, smooth: bool = False) -> Drawin
         The data set.
     radius
         Name of the array that holds the radius; one of the usual names if left out.
-    smooth
-        Whether the lines are smooth already.
+    ends
+        Names of the entrance and of the lines' ends, in a file that magwire has made.
     """
     for cell in (*poly.lines, *poly.polygons):
         if cell.size and (cell.min() < 0 or cell.max() >= len(poly.points)):
-            raise FileFault(
+            raise FileFaultError(
                 f"has a cell of points {cell.min()} to {cell.max()}, but {len(poly.points)} points"
             )
     names = tuple(poly.arrays)
@@ -87,10 +87,15 @@ def drawn(poly: PolyData, radius: str | None, *, smooth: bool = False) -> Drawin
         lines = chains(np.array(lines), len(poly.points))
     name = pick_radius(names, radius)
     values = np.full(len(poly.points), np.nan) if name is None else poly.arrays[name]
+    made = len(ends) == len(lines) + 1 == len(set(ends))
+    called = ends[1:] if made else ("",) * len(lines)
     return Drawing(
-        tuple(Line("", poly.points[cell], values[cell]) for cell in lines),
+        tuple(
+            Line(name, poly.points[cell], values[cell])
+            for name, cell in zip(called, lines, strict=True)
+        ),
         arrays=names,
-        smooth=smooth,
+        entrance=ends[0] if made else "",
     )
 
 

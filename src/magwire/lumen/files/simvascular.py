@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from magwire.lumen.files.drawing import Drawing, FileFault, Line
+from magwire.lumen.files.drawing import Drawing, FileFaultError, Line
 
 DECLARATION = re.compile(rb"<\?xml[^>]*\?>")
 
@@ -30,7 +30,7 @@ def read(data: bytes, radius: str | None) -> Drawing:
             points = step.findall("control_points/point")
         places = np.array([[float(p.get(axis, "nan")) for axis in "xyz"] for p in points])
     except (ElementTree.ParseError, ValueError, LookupError) as error:
-        raise FileFault(f"is not a SimVascular path: {error}") from None
+        raise FileFaultError(f"is not a SimVascular path: {error}") from None
     if len(places) < 2:
-        raise FileFault("is not a SimVascular path with two points or more")
+        raise FileFaultError("is not a SimVascular path with two points or more")
     return Drawing((Line("", places, np.full(len(places), np.nan)),), unit="cm")

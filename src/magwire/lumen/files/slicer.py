@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from magwire.lumen.files.drawing import Array, Drawing, FileFault, Line
+from magwire.lumen.files.drawing import Array, Drawing, FileFaultError, Line
 
 FLIP = {"LPS": 1.0, "1": 1.0, "RAS": -1.0, "0": -1.0}
 """Sign of x and y: what is read is in LPS, as in DICOM."""
@@ -29,9 +29,9 @@ def read(data: bytes, radius: str | None) -> Drawing:
         lines = [_line(curve, radius) for curve in curves]
         units = {curve.get("coordinateUnits", "mm") for curve in curves}
     except RecursionError:
-        raise FileFault("is nested too deeply to be a markups file") from None
+        raise FileFaultError("is nested too deeply to be a markups file") from None
     except (ValueError, KeyError, TypeError, AttributeError, OverflowError):
-        raise FileFault("is not a markups file of 3D Slicer") from None
+        raise FileFaultError("is not a markups file of 3D Slicer") from None
     unit = units.pop() if len(units) == 1 else "mm"
     return Drawing(tuple(line for line in lines if len(line.points) > 1), unit=str(unit))
 
@@ -42,10 +42,10 @@ def _line(curve: dict[str, Any], radius: str | None) -> Line:
         controls = [p for p in controls if p.get("positionStatus", "defined") == "defined"]
     points = np.array([point["position"] for point in controls], dtype=np.float64).reshape(-1, 3)
     if curve["type"] == "ClosedCurve":
-        raise FileFault("holds a closed curve; expected open ones")
+        raise FileFaultError("holds a closed curve; expected open ones")
     system = str(curve.get("coordinateSystem", "LPS"))
     if system not in FLIP:
-        raise FileFault(f"has the coordinate system {system[:20]!r}; expected LPS or RAS")
+        raise FileFaultError(f"has the coordinate system {system[:20]!r}; expected LPS or RAS")
     points[:, :2] *= FLIP[system]
     return Line(str(curve.get("name", "")), points, _radii(curve, len(points), radius or "Radius"))
 
@@ -58,5 +58,5 @@ def _radii(curve: dict[str, Any], count: int, name: str) -> Array:
             values = np.asarray(given, dtype=np.float64)
             if values.shape in ((), (count,)):
                 return np.broadcast_to(values, (count,)).copy()
-            raise FileFault(f"has {values.size} radii for {count} control points")
+            raise FileFaultError(f"has {values.size} radii for {count} control points")
     return np.full(count, np.nan)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 import numpy as np
 
-from magwire.lumen.files.drawing import Drawing, FileFault, Line, pick_radius
+from magwire.lumen.files.drawing import Drawing, FileFaultError, Line, pick_radius
 from magwire.units import DIMENSIONS
 
+Splitter = Callable[[str], list[str]]
 AXES = ("x", "y", "z")
 GROUPS = ("line", "branch", "vessel", "centerlineids", "centerlineid", "groupids", "name")
 """Names of columns that say which line a point belongs to."""
@@ -29,10 +31,10 @@ def read(data: bytes, radius: str | None) -> Drawing:
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise FileFault("is not a text file") from None
+        raise FileFaultError("is not a text file") from None
     rows = [row for row in text.splitlines() if row.strip() and not row.lstrip().startswith("#")]
     if not rows:
-        raise FileFault("is empty")
+        raise FileFaultError("is empty")
     split = _splitter(rows[0])
     heads, unit = _heads(split(rows[0]))
     if heads:
@@ -42,11 +44,13 @@ def read(data: bytes, radius: str | None) -> Drawing:
     columns = _columns(heads, rows, split)
     missing = [axis for axis in AXES if axis not in columns]
     if missing:
-        raise FileFault(f"lacks the column {' and '.join(missing)} among {', '.join(heads)[:200]}")
+        raise FileFaultError(
+            f"lacks the column {' and '.join(missing)} among {', '.join(heads)[:200]}"
+        )
     return _drawing(columns, radius, unit)
 
 
-def _splitter(row: str):  # type: ignore[no-untyped-def]
+def _splitter(row: str) -> Splitter:
     for mark in (",", ";", "\t"):
         if mark in row:
             return lambda text: [part.strip() for part in text.split(mark)]
@@ -73,11 +77,11 @@ def _heads(words: list[str]) -> tuple[list[str], str | None]:
     return names, units.pop() if len(units) == 1 else None
 
 
-def _columns(heads: list[str], rows: list[str], split) -> dict[str, list[str]]:  # type: ignore[no-untyped-def]
+def _columns(heads: list[str], rows: list[str], split: Splitter) -> dict[str, list[str]]:
     cells = [split(row) for row in rows]
     for number, row in enumerate(cells, start=1):
         if len(row) != len(heads):
-            raise FileFault(f"has {len(row)} columns in row {number}; expected {len(heads)}")
+            raise FileFaultError(f"has {len(row)} columns in row {number}; expected {len(heads)}")
     return {head: [row[i] for row in cells] for i, head in enumerate(heads)}
 
 
@@ -89,10 +93,10 @@ def _numbers(name: str, texts: list[str]) -> np.ndarray[tuple[int], np.dtype[np.
             try:
                 float(text)
             except ValueError:
-                raise FileFault(
+                raise FileFaultError(
                     f"has {text[:30]!r} for {name} in row {number}; expected a number"
                 ) from None
-        raise FileFault(f"has a column {name} that is not of numbers") from None
+        raise FileFaultError(f"has a column {name} that is not of numbers") from None
 
 
 def _drawing(columns: dict[str, list[str]], radius: str | None, unit: str | None) -> Drawing:

@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 
-from magwire.lumen.files.drawing import MOST_POINTS, Array, Drawing, FileFault, Line
+from magwire.lumen.files.drawing import MOST_POINTS, Array, Drawing, FileFaultError, Line
 
 ENTRY = re.compile(rb"[ \t]*(\w+)[ \t]*=[ \t]*([^\r\n]*)\r?\n")
 
@@ -21,7 +21,9 @@ def read(data: bytes, radius: str | None) -> Drawing:
     radius
         Not used: the radius has its column.
     """
-    lines, head, place = [], {}, 0
+    lines: list[Line] = []
+    head: dict[str, str] = {}
+    place = 0
     while found := ENTRY.match(data, place):
         key, value = found[1].decode(), found[2].decode("latin-1").strip()
         place = found.end()
@@ -32,10 +34,10 @@ def read(data: bytes, radius: str | None) -> Drawing:
             try:
                 points, place = _points(data, place, head)
             except (ValueError, OverflowError, IndexError):
-                raise FileFault("has a tube whose points cannot be read") from None
+                raise FileFaultError("has a tube whose points cannot be read") from None
             lines.append(_line(points, head))
     if not lines:
-        raise FileFault("holds no tube")
+        raise FileFaultError("holds no tube")
     return Drawing(tuple(line for line in lines if len(line.points) > 1), unit="mm")
 
 
@@ -68,7 +70,7 @@ def _points(data: bytes, place: int, head: dict[str, str]) -> tuple[Array, int]:
 def _columns(head: dict[str, str]) -> list[str]:
     columns = head.get("PointDim", "x y z r").split()
     if not {"x", "y", "z"} <= set(columns):
-        raise FileFault("has a tube without the columns x, y and z")
+        raise FileFaultError("has a tube without the columns x, y and z")
     return columns
 
 
@@ -79,9 +81,9 @@ def _line(points: Array, head: dict[str, str]) -> Line:
         spacing = np.array(head.get("ElementSpacing", "1 1 1").split(), dtype=np.float64)
         offset = np.array(head.get("Offset", "0 0 0").split(), dtype=np.float64)
     except ValueError:
-        raise FileFault("has a tube whose spacing or offset is not of numbers") from None
+        raise FileFaultError("has a tube whose spacing or offset is not of numbers") from None
     if spacing.shape != (3,) or offset.shape != (3,):
-        raise FileFault("has a tube whose spacing or offset has not three numbers")
+        raise FileFaultError("has a tube whose spacing or offset has not three numbers")
     places = points[:, [columns.index(axis) for axis in "xyz"]] * spacing + offset
     wide = next((columns.index(name) for name in ("r", "R") if name in columns), None)
     radius = np.full(len(points), np.nan) if wide is None else points[:, wide] * spacing[0]

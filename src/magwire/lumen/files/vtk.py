@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.lumen.files.drawing import MOST_POINTS, Array, Drawing, FileFault, Indices
+from magwire.lumen.files.drawing import MOST_POINTS, Array, Drawing, FileFaultError, Indices
 from magwire.lumen.files.polydata import PolyData, drawn
 
 TYPES = {
@@ -32,19 +32,19 @@ def read(data: bytes, radius: str | None) -> Drawing:
     """
     source = _Source(data)
     if not source.line().startswith("# vtk DataFile"):
-        raise FileFault("is not a legacy VTK file: it does not start with '# vtk DataFile'")
+        raise FileFaultError("is not a legacy VTK file: it does not start with '# vtk DataFile'")
     source.line()
     style = source.line().strip().upper()
     if style not in ("ASCII", "BINARY"):
-        raise FileFault(f"is {style[:20]!r}; expected ASCII or BINARY in its third line")
+        raise FileFaultError(f"is {style[:20]!r}; expected ASCII or BINARY in its third line")
     source.binary = style == "BINARY"
     words = source.words()
     if [word.upper() for word in words] != ["DATASET", "POLYDATA"]:
-        raise FileFault(f"holds {' '.join(words)[:40]!r}; expected 'DATASET POLYDATA'")
+        raise FileFaultError(f"holds {' '.join(words)[:40]!r}; expected 'DATASET POLYDATA'")
     try:
         return drawn(_Contents(source).all(), radius)
     except (IndexError, ValueError, OverflowError):
-        raise FileFault(f"is broken near byte {source.place}") from None
+        raise FileFaultError(f"is broken near byte {source.place}") from None
 
 
 class _Source:
@@ -77,7 +77,7 @@ class _Source:
         """The next numbers."""
         if not 0 <= count <= 16 * MOST_POINTS:
             raise ValueError
-        code = TYPES[kind.lower()] if kind.lower() in TYPES else ""
+        code = TYPES.get(kind.lower(), "")
         if not code:
             raise ValueError
         if self.binary:
@@ -105,7 +105,7 @@ class _Contents:
         self.points: Array = np.zeros((0, 3))
         self.cells: dict[str, list[Indices]] = {"lines": [], "polygons": []}
         self.arrays: dict[str, Array] = {}
-        self.at_points = False
+        self.at_points, self.count = False, 0
 
     def all(self) -> PolyData:
         """Read to the end."""
@@ -125,7 +125,16 @@ class _Contents:
                 self.cells[CELLS[key]] = found_cells
         elif key in ("POINT_DATA", "CELL_DATA"):
             self.at_points, self.count = key == "POINT_DATA", int(words[1])
-        elif key == "SCALARS":
+        elif key == "METADATA":
+            self._skip()
+        elif key == "FIELD":
+            self._field(int(words[2]))
+        else:
+            self._attribute(key, words)
+
+    def _attribute(self, key: str, words: list[str]) -> None:
+        source = self.source
+        if key == "SCALARS":
             components = int(words[3]) if len(words) > 3 else 1
             table = source.words()  # LOOKUP_TABLE default
             if table[0].upper() != "LOOKUP_TABLE":
@@ -133,25 +142,19 @@ class _Contents:
             self._keep(words[1], components, source.numbers(self.count * components, words[2]))
         elif key in COMPONENTS:
             source.numbers(self.count * COMPONENTS[key], words[2])
-        elif key == "FIELD":
-            self._field(int(words[2]))
-        elif key == "METADATA":
-            while not source.over and source.line().strip():
-                pass
         elif key == "TEXTURE_COORDINATES":
             source.numbers(self.count * int(words[2]), words[3])
         elif key == "LOOKUP_TABLE":
             source.numbers(4 * int(words[2]), "unsigned_char" if source.binary else "float")
         else:
-            raise FileFault(f"has an unknown section {key[:30]!r}")
+            raise FileFaultError(f"has an unknown section {key[:30]!r}")
 
     def _field(self, count: int) -> None:
         done = 0
         while done < count:
             words = self.source.words()
             if words[0].upper() == "METADATA":
-                while not self.source.over and self.source.line().strip():
-                    pass
+                self._skip()
                 continue
             components, rows = int(words[1]), int(words[2])
             if words[3] == "string":
@@ -160,6 +163,11 @@ class _Contents:
             else:
                 self._keep(words[0], components, self.source.numbers(components * rows, words[3]))
             done += 1
+
+    def _skip(self) -> None:
+        """Read past an empty line."""
+        while not self.source.over and self.source.line().strip():
+            pass
 
     def _keep(self, name: str, components: int, values: NDArray[Any]) -> None:
         if self.at_points and components == 1 and len(values) == len(self.points):

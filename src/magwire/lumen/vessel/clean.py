@@ -8,7 +8,7 @@ import numpy as np
 from scipy.interpolate import Akima1DInterpolator
 from scipy.ndimage import median_filter
 
-from magwire.lumen.files.drawing import Array, FileFault, Line
+from magwire.lumen.files.drawing import Array, FileFaultError, Line
 
 REPEATED = 1e-7  # smallest distance of neighbouring points, over the length of the line
 WINDOW = 5  # points whose median a spike stands out from
@@ -38,13 +38,13 @@ def clean(line: Line, number: int) -> Cleaned:
 
     Raises
     ------
-    FileFault
+    FileFaultError
         If more than a tenth of its points have no radius, or its radius is of another scale.
     """
     points, radius = line.points, line.radius
     good = np.isfinite(radius) & (radius > 0.0) & np.isfinite(points).all(axis=1)
     if good.sum() < max(2.0, 0.9 * len(good)):
-        raise FileFault(
+        raise FileFaultError(
             f"has no positive radius at {len(good) - int(good.sum())} of {len(good)} points of "
             f"line {number}"
         )
@@ -52,7 +52,7 @@ def clean(line: Line, number: int) -> Cleaned:
     keep = ~_spikes(points, radius)
     points, radius = _distinct(points[keep], radius[keep])
     if len(points) < 2:
-        raise FileFault(f"has a line {number} without two distinct points")
+        raise FileFaultError(f"has a line {number} without two distinct points")
     radius = _without_jumps(radius)
     dropped = len(line.points) - len(points)
     return Cleaned(_dense(Line(line.name, points, radius), number), dropped)
@@ -93,7 +93,7 @@ def _dense(line: Line, number: int) -> Line:
     narrow = np.minimum(line.radius[1:], line.radius[:-1])
     parts = np.ceil(steps / (STEP * narrow))
     if not parts.sum() <= MOST:
-        raise FileFault(
+        raise FileFaultError(
             f"has a line {number} of length {steps.sum():.4g} with a radius down to "
             f"{line.radius.min():.4g}; expected at most {MOST} points {STEP:g} radii apart"
         )

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.sparse.csgraph import connected_components, dijkstra
 from scipy.spatial import KDTree
 
-from magwire.lumen.files.drawing import Array, FileFault, Indices, Line, Surface
+from magwire.lumen.files.drawing import Array, FileFaultError, Indices, Line, Surface
 from magwire.lumen.vessel.interior import Interior, fill, to_wall, wall_samples
 from magwire.lumen.vessel.mesh import End, Shell, shell
 
@@ -39,7 +39,7 @@ def extract(surface: Surface) -> Extracted:
 
     Raises
     ------
-    FileFault
+    FileFaultError
         If the surface is in pieces, has no inside or fewer than two ends.
     """
     hull = shell(surface)
@@ -53,7 +53,7 @@ def extract(surface: Surface) -> Extracted:
     ends, notes = _without_holes(hull.ends, tree, narrow)
     ends = ends or _tips(inside, distance, tree)
     if len(ends) < 2:
-        raise FileFault(f"has a surface with {len(ends)} open ends; expected two at least")
+        raise FileFaultError(f"has a surface with {len(ends)} open ends; expected two at least")
     first = max(range(len(ends)), key=lambda k: ends[k].radius)
     voxels = KDTree(inside.centres).query(np.array([end.centre for end in ends]))[1]
     before = dijkstra(graph, directed=False, indices=voxels[first], return_predecessors=True)[1]
@@ -73,14 +73,14 @@ def _typical(hull: Shell) -> float:
     volume = abs(float(np.sum(a * np.cross(b, c)))) / 6.0
     area = float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2.0
     if not volume > 1e-9 * area**1.5:
-        raise FileFault("has a surface without an inside")
+        raise FileFaultError("has a surface without an inside")
     return volume / area
 
 
 def _largest(inside: Interior) -> Interior:
     """The largest connected part of the voxels."""
     if len(inside.centres) < 10:
-        raise FileFault("has a surface without an inside")
+        raise FileFaultError("has a surface without an inside")
     label = connected_components(inside.graph(np.ones(len(inside.centres))), directed=False)[1]
     kept = label == int(np.argmax(np.bincount(label)))
     number = inside.number.copy()
@@ -124,7 +124,9 @@ def _tips(inside: Interior, distance: Array, tree: KDTree) -> list[End]:
 
 def _tip_end(tip: Array, inside: Interior, distance: Array) -> End:
     """The end at a tip: the middle of the largest ball that reaches it."""
-    near = np.flatnonzero(np.linalg.norm(inside.centres - tip, axis=1) < 1.5 * distance + inside.cell)
+    near = np.flatnonzero(
+        np.linalg.norm(inside.centres - tip, axis=1) < 1.5 * distance + inside.cell
+    )
     best = near[int(np.argmax(distance[near]))]
     centre = inside.centres[best]
     away = tip - centre

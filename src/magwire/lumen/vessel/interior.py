@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.spatial import KDTree
 
-from magwire.lumen.files.drawing import Array, FileFault, Indices
+from magwire.lumen.files.drawing import Array, FileFaultError, Indices
 
 VOXELS = 8_000_000  # of the box around the surface, at most
 CROSSINGS = 20_000_000  # columns that are tried for all triangles, at most
@@ -37,8 +37,14 @@ class Interior(NamedTuple):
         """Links of neighbouring voxels, as long as they are far apart times their mean cost."""
         rows, columns, lengths = [], [], []
         for shift in _SHIFTS:
-            here = tuple(slice(max(0, -d), n - max(0, d)) for d, n in zip(shift, self.number.shape, strict=True))
-            there = tuple(slice(max(0, d), n - max(0, -d)) for d, n in zip(shift, self.number.shape, strict=True))
+            here = tuple(
+                slice(max(0, -d), n - max(0, d))
+                for d, n in zip(shift, self.number.shape, strict=True)
+            )
+            there = tuple(
+                slice(max(0, d), n - max(0, -d))
+                for d, n in zip(shift, self.number.shape, strict=True)
+            )
             a, b = self.number[here].ravel(), self.number[there].ravel()
             both = (a >= 0) & (b >= 0)
             a, b = a[both], b[both]
@@ -51,11 +57,7 @@ class Interior(NamedTuple):
 
 
 _SHIFTS = [
-    (i, j, k)
-    for i in (-1, 0, 1)
-    for j in (-1, 0, 1)
-    for k in (-1, 0, 1)
-    if (i, j, k) > (0, 0, 0)
+    (i, j, k) for i in (-1, 0, 1) for j in (-1, 0, 1) for k in (-1, 0, 1) if (i, j, k) > (0, 0, 0)
 ]
 
 
@@ -97,7 +99,7 @@ def _crossings(places: Array, triangles: Indices, columns: int) -> tuple[Indices
     count = np.maximum(count, 0)
     tries = count.prod(axis=1)
     if tries.sum() > CROSSINGS:
-        raise FileFault("has a surface too large for the voxels that its narrowest end needs")
+        raise FileFaultError("has a surface too large for the voxels that its narrowest end needs")
     owner = np.repeat(np.arange(len(triangles)), tries)
     local = np.arange(len(owner)) - np.repeat(np.cumsum(tries) - tries, tries)
     i = low[owner, 0] + local // np.maximum(count[owner, 1], 1)

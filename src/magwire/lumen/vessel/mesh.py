@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from magwire.lumen.files.drawing import Array, FileFault, Indices, Surface, chains
+from magwire.lumen.files.drawing import Array, FileFaultError, Indices, Surface, chains
 
 WELD = 1e-6  # distance at which corners are one, over the size of the surface
 DEBRIS = 0.05  # area of a piece that is left out without asking, over the area of all
@@ -54,7 +54,7 @@ def shell(surface: Surface) -> Shell:
 
     Raises
     ------
-    FileFault
+    FileFaultError
         If it has no triangles of any area, or is in several pieces.
     """
     points, triangles = _welded(surface)
@@ -83,7 +83,7 @@ def _welded(surface: Surface) -> tuple[Array, Indices]:
     points = surface.points
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
     if size <= 0.0:
-        raise FileFault("has a surface without any extent")
+        raise FileFaultError("has a surface without any extent")
     keys = np.round((points - points.min(axis=0)) / (WELD * size)).astype(np.int64)
     _, first, where = np.unique(keys, axis=0, return_index=True, return_inverse=True)
     triangles = where.reshape(-1)[surface.triangles]
@@ -92,7 +92,9 @@ def _welded(surface: Surface) -> tuple[Array, Indices]:
     kept = np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)[1]
     triangles = triangles[np.sort(kept)]
     if len(triangles) < 4:
-        raise FileFault(f"has a surface of {len(triangles)} triangles; expected a vessel's wall")
+        raise FileFaultError(
+            f"has a surface of {len(triangles)} triangles; expected a vessel's wall"
+        )
     return points[first], triangles.astype(np.int64)
 
 
@@ -106,7 +108,7 @@ def _one_piece(points: Array, triangles: Indices) -> tuple[Indices, tuple[str, .
     sizes = np.bincount(where, weights=areas(points, triangles)[0])
     large = int(np.sum(sizes > DEBRIS * sizes.sum()))
     if large > 1:
-        raise FileFault(f"has a surface in {large} disconnected pieces; expected one")
+        raise FileFaultError(f"has a surface in {large} disconnected pieces; expected one")
     notes = (
         (f"{len(pieces) - 1} small pieces of the surface are left out.",) if len(pieces) > 1 else ()
     )

@@ -10,7 +10,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 from scipy.spatial import KDTree
 
-from magwire.lumen.files.drawing import Array, FileFault, Indices, Line
+from magwire.lumen.files.drawing import Array, FileFaultError, Indices, Line
 
 MERGED = 0.2  # distance at which points of two lines are one, over the radius
 NEIGHBOURS = 4  # points along a line that count as joined already
@@ -48,7 +48,7 @@ class Network:
 
         Raises
         ------
-        FileFault
+        FileFaultError
             If they are in pieces that do not touch.
         """
         points = np.concatenate([line.points for line in lines])
@@ -71,20 +71,20 @@ class Network:
         """Index of the point nearest to another, shape (3,)."""
         return int(np.argmin(np.linalg.norm(self.points - point, axis=1)))
 
-    def from_entrance(self, start: int) -> tuple[Array, Indices]:
-        """Distance from a point, and the point before on the way, shapes (n,).
+    def from_entrance(self, start: int) -> Indices:
+        """The point before each one on the way from a point, shape (n,); negative if none.
 
         Raises
         ------
-        FileFault
+        FileFaultError
             If there are two ways to some point.
         """
         distance, before = dijkstra(
             self.edges, directed=False, indices=start, return_predecessors=True
         )
-        before = before.astype(np.int64)
-        self._check_loops(distance, before)
-        return distance, before
+        ways: Indices = before.astype(np.int64)
+        self._check_loops(distance, ways)
+        return ways
 
     def way(self, before: Indices, end: int) -> Indices:
         """Indices of the points on the way to an end."""
@@ -130,15 +130,13 @@ class Network:
             if apart.max() > WIDE:
                 length = float(distance[u] + distance[v] - 2.0 * distance[one[split]])
                 x, y, z = self.points[one[int(np.argmax(apart))]]
-                raise FileFault(
+                raise FileFaultError(
                     f"has a loop of length {length:.4g} near ({x:.4g}, {y:.4g}, {z:.4g}); "
                     "expected branches that do not meet again"
                 )
 
 
-def _merged(
-    points: Array, radius: Array, owner: Indices
-) -> tuple[Indices, list[str]]:
+def _merged(points: Array, radius: Array, owner: Indices) -> tuple[Indices, list[str]]:
     """For each point the one that stands for it: of an earlier line if one is close."""
     stand_in = np.arange(len(points))
     notes: list[str] = []
@@ -193,18 +191,18 @@ def _bridges(
     used = np.unique(pairs)
     while True:
         every = np.concatenate([pairs, np.array(found, dtype=np.int64).reshape(-1, 2)])
-        count, label = connected_components(_matrix(points, every), directed=False)
+        label = connected_components(_matrix(points, every), directed=False)[1]
         pieces = np.unique(label[used])
         if len(pieces) < 2:
             return np.array(found, dtype=np.int64).reshape(-1, 2), notes
         if len(pieces) > PIECES:
-            raise FileFault(f"is in {len(pieces)} disconnected pieces")
+            raise FileFaultError(f"is in {len(pieces)} disconnected pieces")
         tip, other, gap = _closest(points, radius, label, used, tips)
         wide = max(radius[tip], radius[other])
         x, y, z = points[tip]
         where = f"({x:.4g}, {y:.4g}, {z:.4g})"
         if gap > BRIDGED * wide:
-            raise FileFault(
+            raise FileFaultError(
                 f"is in {len(pieces)} disconnected pieces; the closest ones are {gap:.4g} apart, "
                 f"{gap / wide:.3g} times the radius there, near {where}"
             )
@@ -230,9 +228,7 @@ def _closest(
     return found
 
 
-def _ends(
-    lines: list[Line], first: Indices, places: Indices, edges: csr_array
-) -> dict[str, int]:
+def _ends(lines: list[Line], first: Indices, places: Indices, edges: csr_array) -> dict[str, int]:
     """Points with a single neighbour, by name."""
     degree = np.diff(edges.indptr)
     leaves: dict[int, str] = {}

@@ -2,30 +2,31 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.spatial.transform import Rotation
 
-from magwire.errors import InputError, array, nonnegative, one_of, positive, refuse
+from magwire.errors import array, nonnegative, one_of, positive, refuse
 from magwire.lumen.branch import Branch
 from magwire.lumen.files import Drawing, Line, load
-from magwire.lumen.files.drawing import Array, FileFault
+from magwire.lumen.files.drawing import Array, FileFaultError
 from magwire.lumen.files.drawing import refuse as refuse_file
 from magwire.lumen.vessel.clean import clean
 from magwire.lumen.vessel.network import Network
+from magwire.lumen.vessel.placement import OWNER, Placement, unit_factor
 from magwire.lumen.vessel.smooth import smooth
-from magwire.units import DIMENSIONS
 
 SPUR = 1.5  # shortest branch that counts, over the radius where it leaves
+SAME = 0.1  # how much closer to a point a tube has to be to be the one that is meant, in radii
 CLOSED = 0.5  # part of the smallest radius that has to be left
-OWNER = "Lumen.read"
-ALREADY = 0.0
+SMOOTHING = 0.5  # in radii
+
+if TYPE_CHECKING:
+    from magwire.lumen.lumen import Lumen
 
 Spot = str | int | Sequence[float]
 """An open end by its name or number, or a point [m]."""
@@ -50,8 +51,8 @@ class Way(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Reading:
-    """A vessel's file, read.
+class Vessel:
+    """The tubes of a vessel, read from a file, and what was done to get them.
 
     Attributes
     ----------
@@ -76,152 +77,130 @@ class Reading:
     smoothing: float = 0.0
     notes: tuple[str, ...] = ()
 
-    def target(self, spot: Spot | None) -> str | None:
-        """The name of a tube by the name or the number of its end, or by a point near it [m]."""
-        return None if spot is None else _chosen("target", spot, {n: self.ends[n] for n in self.tubes}, list(self.ends))
+    @classmethod
+    def read(
+        cls,
+        path: str | Path,
+        units: str | None = None,
+        *,
+        entrance: Spot | None = None,
+        radius: float | str | None = None,
+        scale: float = 1.0,
+        rotation: ArrayLike = (0.0, 0.0, 0.0),
+        translation: ArrayLike = (0.0, 0.0, 0.0),
+        smoothing: float = SMOOTHING,
+    ) -> Vessel:
+        """Read a file; the parameters and errors are those of ``Lumen.read``."""
+        nonnegative(OWNER, "smoothing", smoothing)
+        positive(OWNER, "scale", scale)
+        name = radius if isinstance(radius, str) else None
+        drawing = load(path, name)
+        factor = scale * unit_factor(path, units, drawing)
+        constant = None if radius is None or name else positive(OWNER, "radius", radius, "m")
+        placement = Placement(factor, rotation, translation)
+        try:
+            notes: tuple[str, ...] = ()
+            if not drawing.lines and drawing.surface is not None:
+                drawing, notes = _extracted(drawing)
+            wide = None if constant is None else constant * scale
+            lines = [_placed(line, placement, wide, drawing.arrays) for line in drawing.lines]
+            if drawing.entrance and entrance in (None, drawing.entrance):
+                return _finished(lines, drawing.entrance)
+            return _made(lines, entrance, smoothing, notes)
+        except FileFaultError as fault:
+            raise refuse_file(path, str(fault)) from None
+
+    def lumen(self, target: Spot | None = None, *, blend: float | None = None) -> Lumen:
+        """The tubes joined into one lumen.
+
+        Parameters
+        ----------
+        target
+            Outlet to go to: its name, its number from one among ``ends``, or a point [m]; the
+            first one if left out.
+        blend
+            As in ``Lumen.tree`` [m].
+
+        Raises
+        ------
+        InputError
+            If there is no such outlet, or the tubes cannot be joined.
+        """
+        from magwire.lumen.lumen import Lumen
+
+        tubes = {name: Lumen((tube,)) for name, tube in self.tubes.items()}
+        return Lumen.tree(tubes, target=self.outlet(target), blend=blend)
+
+    def outlet(self, target: Spot | None) -> str | None:
+        """The name of the outlet meant by a name, a number or a point; None if left out."""
+        if target is None:
+            return None
+        if isinstance(target, (str, int)):
+            return _chosen("target", target, tuple(self.tubes), tuple(self.ends))
+        point = array(OWNER, "target", target, (3,), "m")
+        off = {n: np.linalg.norm(t.points - point, axis=1) for n, t in self.tubes.items()}
+        least = min(float(distance.min()) for distance in off.values())
+        near = {  # a point on a trunk is on the way to several outlets: the closest one is meant
+            name: self.tubes[name].length * (1.0 - float(np.argmin(distance)) / len(distance))
+            for name, distance in off.items()
+            if distance.min() <= least + SAME * self.tubes[name].radius[int(np.argmin(distance))]
+        }
+        return min(near, key=lambda name: near[name])
 
 
-@dataclass(frozen=True)
-class Placement:
-    """How the numbers of a file become places: scaled, then turned, then moved.
-
-    Parameters
-    ----------
-    factor
-        Metres for one of the file's units, times the scale that was asked for.
-    rotation
-        Rotation vector, shape (3,) [rad].
-    translation
-        Shape (3,) [m].
-    """
-
-    factor: float
-    rotation: ArrayLike = (0.0, 0.0, 0.0)
-    translation: ArrayLike = (0.0, 0.0, 0.0)
-
-    def points(self, points: Array) -> Array:
-        """Points where they are to be, shape (n, 3) [m]."""
-        turn = Rotation.from_rotvec(array(OWNER, "rotation", self.rotation, (3,), "rad"))
-        shift = array(OWNER, "translation", self.translation, (3,), "m")
-        return np.asarray(turn.apply(self.factor * points) + shift)
+def _finished(lines: list[Line], entrance: str) -> Vessel:
+    """The tubes of a file that magwire has made, as they are."""
+    ends = {entrance: lines[0].points[0], **{line.name: line.points[-1] for line in lines}}
+    tubes = {line.name: Branch(line.points, line.radius) for line in lines}
+    still = {name: Way((0.0, 0.0), 0.0, tube.entrance) for name, tube in tubes.items()}
+    return Vessel(tubes, entrance, ends, still)
 
 
-def read(
-    path: str | Path,
-    units: str | None = None,
-    *,
-    radius: float | str | None = None,
-    entrance: Spot | None = None,
-    scale: float = 1.0,
-    rotation: ArrayLike = (0.0, 0.0, 0.0),
-    translation: ArrayLike = (0.0, 0.0, 0.0),
-    smoothing: float = 0.5,
-) -> Reading:
-    """Read a file; see ``Lumen.read``."""
-    nonnegative(OWNER, "smoothing", smoothing)
-    positive(OWNER, "scale", scale)
-    name = radius if isinstance(radius, str) else None
-    drawing = load(path, name)
-    unit = _unit(path, units, drawing)
-    placement = Placement(unit * scale, rotation, translation)
-    constant = None if radius is None or name else positive(OWNER, "radius", radius, "m")
-    try:
-        return _reading(path, drawing, placement, constant, entrance, smoothing)
-    except FileFault as fault:
-        raise refuse_file(path, str(fault)) from None
-
-
-def guessed_unit(drawing: Drawing) -> str:
-    """The unit in which the numbers of a file would be those of a vessel: "mm", "cm", "m" or "um".
-
-    The size of the whole settles it: people have vessels of some 10 mm to 1 m.
-    """
-    points = [line.points for line in drawing.lines]
-    if drawing.surface is not None:
-        points.append(drawing.surface.points)
-    every = np.concatenate(points)
-    size = float(np.linalg.norm(np.ptp(every, axis=0)))
-    radii = [line.radius[np.isfinite(line.radius)] for line in drawing.lines]
-    values = np.concatenate(radii) if radii else np.zeros(0)
-    sizes = [(size, 0.12, 0.5)]
-    if values.size and np.median(values) > 0.0:
-        sizes.append((float(np.median(values)), 0.0025, 1.0))
-    units = ("um", "mm", "cm", "m")
-    factors = DIMENSIONS["length"].units
-    off = [
-        sum(w * abs(math.log(max(s, 1e-300) * factors[u] / usual)) for s, usual, w in sizes)
-        for u in units
-    ]
-    return units[int(np.argmin(off))]
-
-
-def _unit(path: str | Path, units: str | None, drawing: Drawing) -> float:
-    """Metres in the file's unit."""
-    known = DIMENSIONS["length"].units
-    if units is not None:
-        return known[one_of(OWNER, "units", units, known)]
-    if drawing.unit is None or drawing.unit not in known:
-        raise InputError(
-            f"Input units of {OWNER} must be given for '{path}', which does not state them; its "
-            f"numbers look like '{guessed_unit(drawing)}'."
-        )
-    return known[drawing.unit]
-
-
-def _reading(
-    path: str | Path,
-    drawing: Drawing,
-    placement: Placement,
-    constant: float | None,
-    entrance: Spot | None,
-    smoothing: float,
-) -> Reading:
-    drawing, notes = _lines(path, drawing)
-    cleaned = [
-        clean(_placed(line, placement, constant, drawing.arrays), number)
-        for number, line in enumerate(drawing.lines, start=1)
-    ]
+def _made(
+    lines: list[Line], entrance: Spot | None, smoothing: float, notes: tuple[str, ...]
+) -> Vessel:
+    """The tubes that lines make, once they are cleaned, joined and smoothed."""
+    cleaned = [clean(line, number) for number, line in enumerate(lines, start=1)]
     dropped = sum(part.dropped for part in cleaned)
     if dropped:
-        notes = (*notes, f"{dropped} repeated, stray or radiusless points are left out.")
+        notes = (*notes, f"Points that are repeated, stray or without radius: {dropped}, left out.")
     network = Network.of([part.line for part in cleaned])
-    notes = (*notes, *network.notes)
     places = {name: network.points[end] for name, end in network.ends.items()}
     start, name, network = _start(network, entrance)
-    _, before = network.from_entrance(start)
+    before = network.from_entrance(start)
     ways = {
         end: network.way(before, node)
         for end, node in network.ends.items()
         if node != start and before[node] >= 0
     }
-    ways, more = _without_spurs(network, ways)
+    ways, spurs = _without_spurs(network, ways)
     if not ways:
-        raise FileFault("has no open end to go to")
-    length = ALREADY if drawing.smooth else smoothing
+        raise FileFaultError("has no open end to go to")
     tubes, done = {}, {}
     for end, way in ways.items():
-        tubes[end], done[end] = _tube(end, network.points[way], network.radius[way], length)
-    return Reading(tubes, name, places, done, length, (*notes, *more))
+        tubes[end], done[end] = _tube(end, network.points[way], network.radius[way], smoothing)
+    return Vessel(tubes, name, places, done, smoothing, (*notes, *network.notes, *spurs))
 
 
-def _lines(path: str | Path, drawing: Drawing) -> tuple[Drawing, tuple[str, ...]]:
-    """The drawing with lines; those of a surface are extracted from it."""
-    if drawing.lines or drawing.surface is None:
-        return drawing, ()
+def _extracted(drawing: Drawing) -> tuple[Drawing, tuple[str, ...]]:
+    """The centrelines of a surface in its place."""
     from magwire.lumen.vessel.extract import extract
 
-    extracted = extract(drawing.surface)
-    return drawing._replace(lines=extracted.lines), extracted.notes
+    assert drawing.surface is not None
+    found = extract(drawing.surface)
+    return drawing._replace(lines=found.lines), found.notes
 
 
-def _placed(line: Line, placement: Placement, constant: float | None, arrays: Sequence[str]) -> Line:
+def _placed(
+    line: Line, placement: Placement, constant: float | None, arrays: Sequence[str]
+) -> Line:
     """A line in metres, where it is to be, with the radius that was asked for."""
     radius = line.radius * placement.factor
     if constant is not None:
         radius = np.full(len(radius), constant)
     if np.isnan(radius).all():
         there = ", ".join(repr(name) for name in arrays)
-        raise FileFault(
+        raise FileFaultError(
             "has no radius at its points"
             + (f" among its arrays {there}" if there else "")
             + "; name the array that holds it, or give one radius"
@@ -232,14 +211,13 @@ def _placed(line: Line, placement: Placement, constant: float | None, arrays: Se
 def _start(network: Network, entrance: Spot | None) -> tuple[int, str, Network]:
     """The point to enter at, its name, and what of the network lies past it."""
     if not network.ends:
-        raise FileFault("has no open end to enter at")
+        raise FileFaultError("has no open end to enter at")
     if entrance is None:
         name = max(network.ends, key=lambda end: network.radius[network.ends[end]])
         return network.ends[name], name, network
-    names = list(network.ends)
-    places = {end: network.points[node] for end, node in network.ends.items()}
     if isinstance(entrance, (str, int)):
-        name = _chosen("entrance", entrance, places, names)
+        names = tuple(network.ends)
+        name = _chosen("entrance", entrance, names, names)
         return network.ends[name], name, network
     node = network.nearest(array(OWNER, "entrance", entrance, (3,), "m"))
     for name, end in network.ends.items():
@@ -248,17 +226,14 @@ def _start(network: Network, entrance: Spot | None) -> tuple[int, str, Network]:
     return node, "point", network.beyond(node)
 
 
-def _chosen(what: str, spot: Spot, places: dict[str, Array], order: list[str]) -> str:
-    """The name of an end by its name, its number from one in ``order``, or a point near it."""
+def _chosen(what: str, spot: str | int, names: Sequence[str], order: Sequence[str]) -> str:
+    """The name of an end by its name, or by its number from one in ``order``."""
     if isinstance(spot, str):
-        return one_of(OWNER, what, spot, places)
-    if isinstance(spot, int):
-        if not 1 <= spot <= len(order) or order[spot - 1] not in places:
-            numbers = ", ".join(str(order.index(name) + 1) for name in places)
-            raise refuse(OWNER, what, f"the number of an end, one of {numbers}", spot)
-        return order[spot - 1]
-    point = array(OWNER, what, spot, (3,), "m")
-    return min(places, key=lambda name: float(np.linalg.norm(places[name] - point)))
+        return one_of(OWNER, what, spot, names)
+    if not 1 <= spot <= len(order) or order[spot - 1] not in names:
+        numbers = ", ".join(str(order.index(name) + 1) for name in names)
+        raise refuse(OWNER, what, f"the number of an end, one of {numbers}", spot)
+    return order[spot - 1]
 
 
 def _without_spurs(
@@ -282,14 +257,12 @@ def _without_spurs(
 
 def _tube(name: str, points: Array, radius: Array, length: float) -> tuple[Branch, Way]:
     """The smooth tube of a way."""
-    if length == ALREADY:
-        return Branch(points, radius), Way((0.0, 0.0), 0.0, points[0])
     found = smooth(points, radius, length)
     worst = int(np.argmax(found.narrowed))
     closed = int(np.argmin(found.radius))
     if found.radius[closed] < CLOSED * radius.min():
         x, y, z = found.points[closed]
-        raise FileFault(
+        raise FileFaultError(
             f"bends so sharply near ({x:.4g}, {y:.4g}, {z:.4g}) m, on the way to '{name}', that a "
             f"lumen of radius {found.radius[closed]:.3g} m is left of {radius.min():.3g} m; give "
             f"more smoothing than {length:g} radii"

@@ -55,7 +55,7 @@ def smooth(points: Array, radius: Array, length: float) -> Smoothed:
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
     paces = steps * 0.5 * (1.0 / radius[1:] + 1.0 / radius[:-1])
     place = np.concatenate([[0.0], np.cumsum(paces)])
-    count = max(int(round(place[-1] / STEP)), 4)
+    count = max(round(place[-1] / STEP), 4)
     at = np.minimum(STEP * np.arange(count + 1), place[-1])  # the same for all ways through a trunk
     at[-1] = place[-1]
     if at[-2] >= at[-1]:
@@ -91,7 +91,7 @@ def _usable(points: Array, radius: Array) -> Array:
     first, second = curve(arc, 1), curve(arc, 2)
     speed = np.linalg.norm(first, axis=1)
     curvature = np.linalg.norm(np.cross(first, second), axis=1) / speed**3
-    bent = np.minimum(radius, SHARPEST / np.maximum(curvature, 1e-300))
+    bent: Array = np.minimum(radius, SHARPEST / np.maximum(curvature, 1e-300))
     for steepest in STEEPEST * 0.85 ** np.arange(12):  # between its points a spline is steeper
         allowed = bent.copy()
         for i in range(1, len(arc)):
