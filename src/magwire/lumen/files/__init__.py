@@ -11,7 +11,18 @@ from pathlib import Path
 
 import numpy as np
 
-from magwire.lumen.files import meshes, netcdf, simvascular, slicer, swc, tables, tubetk, vtk, vtp
+from magwire.lumen.files import (
+    meshes,
+    netcdf,
+    simvascular,
+    slicer,
+    swc,
+    tables,
+    toml,
+    tubetk,
+    vtk,
+    vtp,
+)
 from magwire.lumen.files.drawing import (
     LARGEST_FILE,
     Drawing,
@@ -36,6 +47,7 @@ FORMATS: dict[str, Callable[[bytes, str | None], Drawing]] = {
     ".tre": tubetk.read,
     ".json": slicer.read,
     ".nc": netcdf.read,
+    ".toml": toml.read,
     ".stl": lambda data, _: meshes.read(data, "stl"),
     ".ply": lambda data, _: meshes.read(data, "ply"),
     ".obj": lambda data, _: meshes.read(data, "obj"),

@@ -55,7 +55,7 @@ def guessed_unit(drawing: Drawing) -> str:
     size = float(np.linalg.norm(np.ptp(every, axis=0)))
     radii = [line.radius[np.isfinite(line.radius)] for line in drawing.lines]
     values = np.concatenate(radii) if radii else np.zeros(0)
-    sizes = [(size, 0.12, 0.5)]
+    sizes = [(size, 0.2, 1.0)]
     if values.size and np.median(values) > 0.0:
         sizes.append((float(np.median(values)), 0.0025, 1.0))
     units = ("um", "mm", "cm", "m")
