@@ -15,7 +15,7 @@ WINDOW = 5  # points whose median a spike stands out from
 OUTLYING = 6.0  # distance of a spike from that median, over what is usual along the line
 NOTABLE = 0.5  # and over the radius
 JUMP = 1.6  # factor by which the radius of a spike is off the median
-STEP = 0.2  # of the points that come out, over the radius
+STEP = 0.12  # of the points that come out, over the radius
 MOST = 200_000  # points of a line that come out
 
 

@@ -13,13 +13,17 @@ from magwire.lumen.vessel.interior import Interior, fill, to_wall, wall_samples
 from magwire.lumen.vessel.mesh import End, Shell, shell
 
 FINENESS = 0.25  # edge length of a voxel, over the radius of the narrowest end
-SPACING = 0.1  # of the points of the wall, over that radius
+SPACING = 0.25  # of the points of the wall, over that radius
 SHYNESS = 3.0  # power of the distance from the wall in the cost of a way
 PULLS = 40  # steps towards the middle
 FIRST_PULL = 0.2  # length of the first one, over the radius
+SMALLEST = 1e-3  # radius of an end, over the size of the vessel
 HOLE = 2.0  # radius of what is behind a hole, over its own
 REACHES = 4.0  # length of a branch without a cap, over the radius where it leaves
 BRANCHES = 200
+MOST = 3000  # points of a line
+ROUGHLY = 0.3  # part by which the distance in the cost may be off
+COARSEST = 0.8  # edge length of a voxel that still tells where the narrowest end is, over its radius
 
 
 class Extracted(NamedTuple):
@@ -43,14 +47,19 @@ def extract(surface: Surface) -> Extracted:
         If the surface is in pieces, has no inside or fewer than two ends.
     """
     hull = shell(surface)
-    narrow = min((end.radius for end in hull.ends), default=_typical(hull))
+    ends, notes = _without_holes(hull)
+    narrow = min(end.radius for end in ends) if ends else _typical(hull)
     inside = fill(hull.points, np.concatenate([hull.wall, hull.caps]), FINENESS * narrow)
+    if inside.cell > COARSEST * narrow:
+        raise FileFaultError(
+            f"has a surface too large to be filled with voxels that its narrowest end, of radius "
+            f"{narrow:.4g}, needs"
+        )
     samples, spacing = wall_samples(hull.points, hull.wall, SPACING * narrow)
     inside = _largest(inside)
     tree = KDTree(samples)
-    distance = to_wall(tree, inside.centres)[0]
+    distance = to_wall(tree, inside.centres, within=ROUGHLY)[0]
     graph = inside.graph((distance.max() / np.maximum(distance, 0.1 * inside.cell)) ** SHYNESS)
-    ends, notes = _without_holes(hull.ends, tree, narrow)
     ends = ends or _tips(inside, distance, tree)
     if len(ends) < 2:
         raise FileFaultError(f"has a surface with {len(ends)} open ends; expected two at least")
@@ -63,7 +72,7 @@ def extract(surface: Surface) -> Extracted:
             way = inside.centres[_way(before, int(voxels[k]))]
             way = np.concatenate([[ends[first].centre], way[1:-1], [end.centre]])
             points = _pulled(way, tree, inside.cell)
-            lines.append(Line("", points, to_wall(tree, points)[0]))
+            lines.append(Line("", points, to_wall(tree, points, within=0.002)[0]))
     return Extracted(tuple(lines), (*hull.notes, *notes, _accuracy(lines, samples, spacing)))
 
 
@@ -90,17 +99,18 @@ def _largest(inside: Interior) -> Interior:
     return Interior(inside.centres[kept], number, inside.cell)
 
 
-def _without_holes(
-    ends: list[End], tree: KDTree, narrow: float
-) -> tuple[list[End], tuple[str, ...]]:
+def _without_holes(hull: Shell) -> tuple[list[End], tuple[str, ...]]:
     """The ends behind which the vessel is about as wide as they are."""
+    if not hull.ends:
+        return [], ()
+    tree, size = KDTree(hull.points[np.unique(hull.wall)]), float(np.ptp(hull.points, axis=0).max())
     kept = []
-    for end in ends:
+    for end in hull.ends:
         behind = end.centre - 3.0 * end.radius * end.outward
-        if float(tree.query(behind)[0]) < HOLE * end.radius:
+        if SMALLEST * size < end.radius and float(tree.query(behind)[0]) < HOLE * end.radius:
             kept.append(end)
-    lost = len(ends) - len(kept)
-    return kept, (f"{lost} holes in the wall are closed.",) if lost else ()
+    lost = len(hull.ends) - len(kept)
+    return kept, (f"Holes in the wall: {lost}, closed.",) if lost else ()
 
 
 def _tips(inside: Interior, distance: Array, tree: KDTree) -> list[End]:
@@ -147,7 +157,7 @@ def _pulled(way: Array, tree: KDTree, cell: float) -> Array:
     points = _even(way, cell)
     mean = np.zeros_like(points)
     for step in range(PULLS):
-        distance, away = to_wall(tree, points)
+        distance, away = to_wall(tree, points, within=0.02)
         along = np.gradient(points, axis=0)
         along /= np.maximum(np.linalg.norm(along, axis=1), 1e-300)[:, None]
         across = away - np.sum(away * along, axis=1)[:, None] * along
@@ -163,7 +173,7 @@ def _even(points: Array, cell: float) -> Array:
     """Points of a polyline at even distances of about ``cell``."""
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
     arc = np.concatenate([[0.0], np.cumsum(steps)])
-    at = np.linspace(0.0, arc[-1], max(int(arc[-1] / cell), 4) + 1)
+    at = np.linspace(0.0, arc[-1], min(max(int(arc[-1] / cell), 4), MOST) + 1)
     return np.column_stack([np.interp(at, arc, points[:, k]) for k in range(3)])
 
 

@@ -13,7 +13,7 @@ from magwire.lumen.files.drawing import Array, FileFaultError, Indices
 
 VOXELS = 8_000_000  # of the box around the surface, at most
 CROSSINGS = 20_000_000  # columns that are tried for all triangles, at most
-SAMPLES = 2_000_000  # of the wall, at most
+SAMPLES = 200_000  # of the wall, at most
 
 
 class Interior(NamedTuple):
@@ -134,8 +134,18 @@ def wall_samples(points: Array, triangles: Indices, spacing: float) -> tuple[Arr
     return np.unique(np.concatenate(found), axis=0), spacing
 
 
-def to_wall(samples: KDTree, points: Array) -> tuple[Array, Array]:
-    """Distance of points from the wall, shape (n,), and unit vectors away from it, (n, 3)."""
-    distance, nearest = samples.query(points)
+def to_wall(samples: KDTree, points: Array, within: float = 0.0) -> tuple[Array, Array]:
+    """Distance of points from the wall, shape (n,), and unit vectors away from it, (n, 3).
+
+    Parameters
+    ----------
+    samples
+        Of the wall.
+    points
+        Shape (n, 3).
+    within
+        Part by which the distance may be too large; the larger, the faster.
+    """
+    distance, nearest = samples.query(points, eps=within)
     away = points - samples.data[nearest]
     return distance, away / np.maximum(distance, 1e-300)[:, None]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +13,7 @@ from scipy.spatial import KDTree
 
 from magwire.lumen.files.drawing import Array, FileFaultError, Indices, Line
 
-MERGED = 0.2  # distance at which points of two lines are one, over the radius
+MERGED = 0.1  # distance at which points of two lines are one, over the radius
 NEIGHBOURS = 4  # points along a line that count as joined already
 BRIDGED = 2.0  # largest gap between a line's end and another line, over the radius
 NOTED = 0.5  # gap that is worth a word, over the radius
@@ -231,14 +232,12 @@ def _closest(
 def _ends(lines: list[Line], first: Indices, places: Indices, edges: csr_array) -> dict[str, int]:
     """Points with a single neighbour, by name."""
     degree = np.diff(edges.indptr)
-    leaves: dict[int, str] = {}
-    shared = {line.name for line in lines if [other.name for other in lines].count(line.name) > 1}
-    for i, line in enumerate(lines):
-        for at in (places[first[i]], places[first[i + 1] - 1]):
-            if at >= 0 and degree[at] == 1:
-                name = "" if line.name in shared else line.name
-                leaves.setdefault(int(at), name)
-    names: dict[str, int] = {}
-    for number, (leaf, name) in enumerate(leaves.items(), start=1):
-        names[name if name and name not in names else f"end-{number}"] = leaf
-    return names
+    tips = [[int(places[first[i + 1] - 1]), int(places[first[i]])] for i in range(len(lines))]
+    claims = Counter(tip for pair in tips for tip in pair if tip >= 0 and degree[tip] == 1)
+    leaves = dict.fromkeys((t for a, b in tips for t in (b, a) if t in claims), "")
+    for line, pair in zip(lines, tips, strict=True):
+        # A line is named for where it leads: to its last point, or to its first if it runs back.
+        own = [tip for tip in pair if claims[tip] == 1]
+        if own and line.name not in leaves.values():
+            leaves[own[0]] = line.name
+    return {name or f"end-{k}": leaf for k, (leaf, name) in enumerate(leaves.items(), start=1)}
