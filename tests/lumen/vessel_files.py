@@ -108,7 +108,10 @@ def vtk(style: str = "ascii") -> bytes:
     def numbers(values: NDArray[Any], kind: str) -> bytes:
         if binary:
             return values.astype(kind).tobytes() + b"\n"
-        return "\n".join(" ".join(map(repr, row)) for row in np.atleast_2d(values).tolist()).encode() + b"\n"
+        return (
+            "\n".join(" ".join(map(repr, row)) for row in np.atleast_2d(values).tolist()).encode()
+            + b"\n"
+        )
 
     out = b"# vtk DataFile Version 4.2\nvessel\n" + (b"BINARY\n" if binary else b"ASCII\n")
     out += f"DATASET POLYDATA\nPOINTS {len(points)} double\n".encode() + numbers(points, ">f8")
@@ -211,7 +214,10 @@ def tube(*, closed: bool = False, sides: int = 24) -> tuple[Array, NDArray[np.in
     beside /= np.linalg.norm(beside, axis=1)[:, None]
     above = np.cross(beside, along)
     angle = 2.0 * np.pi * np.arange(sides) / sides
-    circle = np.cos(angle)[None, :, None] * beside[:, None] + np.sin(angle)[None, :, None] * above[:, None]
+    circle = (
+        np.cos(angle)[None, :, None] * beside[:, None]
+        + np.sin(angle)[None, :, None] * above[:, None]
+    )
     corners = (points[:, None] + radius[:, None, None] * circle).reshape(-1, 3)
     triangles = []
     for i in range(len(points) - 1):
@@ -247,8 +253,8 @@ def ply() -> bytes:
     """A PLY, as text."""
     corners, triangles = tube()
     head = (
-        f"ply\nformat ascii 1.0\nelement vertex {len(corners)}\nproperty float x\nproperty float y\n"
-        f"property float z\nelement face {len(triangles)}\nproperty list uchar int vertex_indices\n"
+        f"ply\nformat ascii 1.0\nelement vertex {len(corners)}\nproperty float x\n"
+        f"property float y\nproperty float z\nelement face {len(triangles)}\nproperty list uchar int vertex_indices\n"
         "end_header\n"
     )
     rows = [f"{x} {y} {z}" for x, y, z in corners.tolist()]

@@ -285,7 +285,8 @@ class Lumen:
         rotation, translation
             Rotation vector [rad] about the origin, and what is added then [m], shapes (3,).
         smoothing
-            Length in radii of the lumen; waves shorter than 2 pi times it are taken out.
+            Length in radii of the lumen; waves shorter than 2 pi times it are taken out. It is
+            raised, up to fourfold, where bends are too sharp for the lumen's width.
 
         Raises
         ------

@@ -95,6 +95,7 @@ def drawn(poly: PolyData, radius: str | None, ends: tuple[str, ...] = ()) -> Dra
             for name, cell in zip(called, lines, strict=True)
         ),
         arrays=names,
+        unit="mm" if made else None,
         entrance=ends[0] if made else "",
     )
 

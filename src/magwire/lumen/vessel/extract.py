@@ -23,7 +23,9 @@ REACHES = 4.0  # length of a branch without a cap, over the radius where it leav
 BRANCHES = 200
 MOST = 3000  # points of a line
 ROUGHLY = 0.3  # part by which the distance in the cost may be off
-COARSEST = 0.8  # edge length of a voxel that still tells where the narrowest end is, over its radius
+COARSEST = (
+    0.8  # edge length of a voxel that still tells where the narrowest end is, over its radius
+)
 
 
 class Extracted(NamedTuple):
@@ -71,7 +73,7 @@ def extract(surface: Surface) -> Extracted:
         if k != first:
             way = inside.centres[_way(before, int(voxels[k]))]
             way = np.concatenate([[ends[first].centre], way[1:-1], [end.centre]])
-            points = _pulled(way, tree, inside.cell)
+            points = _pulled(way, tree, inside.cell, (ends[first], end))
             lines.append(Line("", points, to_wall(tree, points, within=0.002)[0]))
     return Extracted(tuple(lines), (*hull.notes, *notes, _accuracy(lines, samples, spacing)))
 
@@ -152,7 +154,7 @@ def _way(before: Indices, end: int) -> Indices:
     return np.array(found[::-1], dtype=np.int64)
 
 
-def _pulled(way: Array, tree: KDTree, cell: float) -> Array:
+def _pulled(way: Array, tree: KDTree, cell: float, ends: tuple[End, End]) -> Array:
     """The way, pulled across its direction to where the wall is farthest, and evened out."""
     points = _even(way, cell)
     mean = np.zeros_like(points)
@@ -166,6 +168,8 @@ def _pulled(way: Array, tree: KDTree, cell: float) -> Array:
         points[1:-1] = 0.25 * points[:-2] + 0.5 * points[1:-1] + 0.25 * points[2:]
         if step >= PULLS // 2:
             mean += points / (PULLS - PULLS // 2)
+    for i, end in zip((0, -1), ends, strict=True):  # it begins and stops in the ends' planes
+        mean[i] -= (mean[i] - end.centre) @ end.outward * end.outward
     return _even(mean, cell)
 
 

@@ -11,7 +11,7 @@ from scipy.spatial import KDTree
 
 from magwire.lumen.files.drawing import Array, FileFaultError, Indices
 
-VOXELS = 8_000_000  # of the box around the surface, at most
+VOXELS = 3_000_000  # of the box around the surface, at most
 CROSSINGS = 20_000_000  # columns that are tried for all triangles, at most
 SAMPLES = 200_000  # of the wall, at most
 

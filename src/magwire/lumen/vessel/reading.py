@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from magwire.errors import array, nonnegative, one_of, positive, refuse
 from magwire.lumen.branch import Branch
 from magwire.lumen.files import Drawing, Line, load
-from magwire.lumen.files.drawing import Array, FileFaultError
+from magwire.lumen.files.drawing import Array, FileFaultError, Indices
 from magwire.lumen.files.drawing import refuse as refuse_file
 from magwire.lumen.vessel.clean import clean
 from magwire.lumen.vessel.network import Network
@@ -24,6 +24,7 @@ SPUR = 1.5  # shortest branch that counts, over the radius where it leaves
 SAME = 0.1  # how much closer to a point a tube has to be to be the one that is meant, in radii
 CLOSED = 0.5  # part of the smallest radius that has to be left
 SMOOTHING = 0.5  # in radii
+RAISED = (1.0, 1.5, 2.0, 3.0, 4.0)  # factors on it that are tried, where bends are too sharp
 
 if TYPE_CHECKING:
     from magwire.lumen.lumen import Lumen
@@ -98,15 +99,14 @@ class Vessel:
         factor = scale * unit_factor(path, units, drawing)
         constant = None if radius is None or name else positive(OWNER, "radius", radius, "m")
         placement = Placement(factor, rotation, translation)
+        wide = None if constant is None else constant * scale
         try:
-            notes: tuple[str, ...] = ()
-            if not drawing.lines and drawing.surface is not None:
+            with np.errstate(all="ignore"):  # numbers of a broken file end in a refusal
                 drawing, notes = _extracted(drawing)
-            wide = None if constant is None else constant * scale
-            lines = [_placed(line, placement, wide, drawing.arrays) for line in drawing.lines]
-            if drawing.entrance and entrance in (None, drawing.entrance):
-                return _finished(lines, drawing.entrance)
-            return _made(lines, entrance, smoothing, notes)
+                lines = [_placed(line, placement, wide, drawing.arrays) for line in drawing.lines]
+                if drawing.entrance and entrance in (None, drawing.entrance):
+                    return _finished(lines, drawing.entrance)
+                return _made(lines, entrance, smoothing, notes)
         except FileFaultError as fault:
             raise refuse_file(path, str(fault)) from None
 
@@ -176,17 +176,42 @@ def _made(
     ways, spurs = _without_spurs(network, ways)
     if not ways:
         raise FileFaultError("has no open end to go to")
-    tubes, done = {}, {}
-    for end, way in ways.items():
-        tubes[end], done[end] = _tube(end, network.points[way], network.radius[way], smoothing)
-    return Vessel(tubes, name, places, done, smoothing, (*notes, *network.notes, *spurs))
+    tubes, done, used = _tubes(network, ways, smoothing)
+    notes = (*notes, *network.notes, *spurs)
+    if used > smoothing:
+        notes = (*notes, f"Bends are too sharp for {smoothing:g} radii of smoothing: {used:g}.")
+    return Vessel(tubes, name, places, done, used, notes)
+
+
+def _tubes(
+    network: Network, ways: dict[str, Indices], smoothing: float
+) -> tuple[dict[str, Branch], dict[str, Way], float]:
+    """The tubes along all ways, what was done to them, and by how much smoothing.
+
+    It is the least of ``RAISED`` times what was asked for that leaves all of them open, and the
+    same for all, so that they stay one in their trunk.
+    """
+    for factor in RAISED:
+        try:
+            made = {
+                end: _tube(end, network.points[way], network.radius[way], factor * smoothing)
+                for end, way in ways.items()
+            }
+        except FileFaultError:
+            if factor == RAISED[-1]:
+                raise
+        else:
+            break
+    tubes, done = ({end: pair[k] for end, pair in made.items()} for k in (0, 1))
+    return tubes, done, factor * smoothing  # type: ignore[return-value]
 
 
 def _extracted(drawing: Drawing) -> tuple[Drawing, tuple[str, ...]]:
-    """The centrelines of a surface in its place."""
+    """The drawing with the centrelines of its surface, if it has no lines, and what was done."""
+    if drawing.lines or drawing.surface is None:
+        return drawing, ()
     from magwire.lumen.vessel.extract import extract
 
-    assert drawing.surface is not None
     found = extract(drawing.surface)
     return drawing._replace(lines=found.lines), found.notes
 
@@ -237,8 +262,8 @@ def _chosen(what: str, spot: str | int, names: Sequence[str], order: Sequence[st
 
 
 def _without_spurs(
-    network: Network, ways: dict[str, np.ndarray[tuple[int], np.dtype[np.int64]]]
-) -> tuple[dict[str, np.ndarray[tuple[int], np.dtype[np.int64]]], tuple[str, ...]]:
+    network: Network, ways: dict[str, Indices]
+) -> tuple[dict[str, Indices], tuple[str, ...]]:
     """Ways that leave all others for more than about a radius."""
     kept, notes = dict(ways), []
     for name in list(ways):
@@ -264,8 +289,8 @@ def _tube(name: str, points: Array, radius: Array, length: float) -> tuple[Branc
         x, y, z = found.points[closed]
         raise FileFaultError(
             f"bends so sharply near ({x:.4g}, {y:.4g}, {z:.4g}) m, on the way to '{name}', that a "
-            f"lumen of radius {found.radius[closed]:.3g} m is left of {radius.min():.3g} m; give "
-            f"more smoothing than {length:g} radii"
+            f"lumen of radius {found.radius[closed]:.3g} m is left of {radius.min():.3g} m; even "
+            f"with a smoothing of {length:g} radii"
         )
     deviation = float(found.deviation.max()), float(np.sqrt(np.mean(found.deviation**2)))
     way = Way(deviation, float(found.narrowed[worst]), found.points[worst])
