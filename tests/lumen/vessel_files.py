@@ -254,7 +254,8 @@ def ply() -> bytes:
     corners, triangles = tube()
     head = (
         f"ply\nformat ascii 1.0\nelement vertex {len(corners)}\nproperty float x\n"
-        f"property float y\nproperty float z\nelement face {len(triangles)}\nproperty list uchar int vertex_indices\n"
+        f"property float y\nproperty float z\nelement face {len(triangles)}\n"
+        "property list uchar int vertex_indices\n"
         "end_header\n"
     )
     rows = [f"{x} {y} {z}" for x, y, z in corners.tolist()]
