@@ -36,8 +36,18 @@ def draw(tubes: Mapping[str, tuple[Array, Array]], wire: float | None = None) ->
         Two columns wide (180 mm).
     """
     with mpl.rc_context(style.RC):
-        figure = Figure(figsize=(style.WIDTH * style.MM, HEIGHT * style.MM), layout="constrained")
+        figure = Figure(figsize=(style.WIDTH * style.MM, HEIGHT * style.MM))
         FigureCanvasAgg(figure)
+        draw_into(figure, tubes, wire)
+    return figure
+
+
+def draw_into(
+    figure: Figure, tubes: Mapping[str, tuple[Array, Array]], wire: float | None = None
+) -> None:
+    """Draw the tubes of a vessel into an empty figure; what they are is said in ``draw``."""
+    with mpl.rc_context(style.RC):
+        figure.set_layout_engine("constrained")
         halves: Any = figure.subfigures(1, 2, width_ratios=(1.0, 1.0))
         parts = [shapes.Branch(1e3 * p, 1e3 * r) for p, r in tubes.values()]
         _draw_tubes(halves[0].add_subplot(projection="3d", computed_zorder=False), parts, tubes)
@@ -51,7 +61,6 @@ def draw(tubes: Mapping[str, tuple[Array, Array]], wire: float | None = None) ->
         axes.set(xlabel="arc length from the entrance [mm]", ylabel="radius [mm]")
         axes.set_ylim(bottom=0.0)
         axes.legend()
-    return figure
 
 
 def save(

@@ -20,8 +20,8 @@ FIRST_PULL = 0.2  # length of the first one, over the radius
 SMALLEST = 1e-3  # radius of an end, over the size of the vessel
 HOLE = 2.0  # radius of what is behind a hole, over its own
 REACHES = 4.0  # length of a branch without a cap, over the radius where it leaves
-BRANCHES = 200
-MOST = 3000  # points of a line
+BRANCHES = 60
+MOST = 1000  # points of a line
 ROUGHLY = 0.3  # part by which the distance in the cost may be off
 COARSEST = (
     0.8  # edge length of a voxel that still tells where the narrowest end is, over its radius
