@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -254,62 +254,30 @@ class Lumen:
         path: str | Path,
         units: str | None = None,
         *,
-        entrance: Spot | None = None,
         target: Spot | None = None,
-        radius: float | str | None = None,
-        scale: float = 1.0,
-        rotation: ArrayLike = (0.0, 0.0, 0.0),
-        translation: ArrayLike = (0.0, 0.0, 0.0),
-        smoothing: float = 0.5,
+        **options: Any,
     ) -> Lumen:
         """Vessel from a file of centrelines, or of a surface, whose centrelines are extracted.
 
         Parameters
         ----------
-        path
-            The end of its name says which format it is in: VTK (.vtp, .vtk), tables (.csv, .tsv,
-            .dat, .txt), SWC (.swc), SimVascular (.pth), TubeTK (.tre), 3D Slicer (.mrk.json), or a
-            surface (.vtp, .vtk, .stl, .ply, .obj).
-        units
-            Unit of its numbers, such as "mm"; needed unless the file states it.
-        entrance
-            Open end to enter at: its name, its number from one, or a point [m]. A point inside
-            cuts off what is behind it. The widest end if left out.
+        path, units
+            The file, and the unit of its numbers, such as "mm"; needed unless the file states it.
         target
-            Outlet to go to, in the same ways; the first one if left out.
-        radius
-            Name of the array that holds it, if that is none of the usual ones, or one radius for
-            all points [m].
-        scale
-            Factor on all lengths.
-        rotation, translation
-            Rotation vector [rad] about the origin, and what is added then [m], shapes (3,).
-        smoothing
-            Length in radii of the lumen; waves shorter than 2 pi times it are taken out. It is
-            raised, up to fourfold, where bends are too sharp for the lumen's width.
+            Outlet to go to: its name, the number of its end from one, or a point [m]; the first
+            one if left out.
+        options
+            The others of ``Vessel.read``: ``entrance``, ``radius``, ``scale``, ``rotation``,
+            ``translation`` and ``smoothing``.
 
         Raises
         ------
         InputError
             If the file cannot be used: in one sentence, why.
-
-        See Also
-        --------
-        Vessel : The same, with a record of what was done to what the file holds.
         """
         from magwire.lumen.vessel import Vessel
 
-        vessel = Vessel.read(
-            path,
-            units,
-            entrance=entrance,
-            radius=radius,
-            scale=scale,
-            rotation=rotation,
-            translation=translation,
-            smoothing=smoothing,
-        )
-        return vessel.lumen(target)
+        return Vessel.read(path, units, **options).lumen(target)
 
     @classmethod
     def open_space(cls) -> Lumen:

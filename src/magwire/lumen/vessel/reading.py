@@ -91,7 +91,35 @@ class Vessel:
         translation: ArrayLike = (0.0, 0.0, 0.0),
         smoothing: float = SMOOTHING,
     ) -> Vessel:
-        """Read a file; the parameters and errors are those of ``Lumen.read``."""
+        """Read a file of centrelines, or of a surface, whose centrelines are extracted.
+
+        Parameters
+        ----------
+        path
+            The end of its name says which format it is in: VTK (.vtp, .vtk), tables (.csv, .tsv,
+            .dat, .txt), SWC (.swc), SimVascular (.pth), TubeTK (.tre), 3D Slicer (.mrk.json), or a
+            surface (.vtp, .vtk, .stl, .ply, .obj).
+        units
+            Unit of its numbers, such as "mm"; needed unless the file states it.
+        entrance
+            Open end to enter at: its name, its number from one, or a point [m]. A point inside
+            cuts off what is behind it. The widest end if left out.
+        radius
+            Name of the array that holds it, if that is none of the usual ones, or one radius for
+            all points [m].
+        scale
+            Factor on all lengths.
+        rotation, translation
+            Rotation vector [rad] about the origin, and what is added then [m], shapes (3,).
+        smoothing
+            Length in radii of the lumen; waves shorter than 2 pi times it are taken out. It is
+            raised, up to fourfold, where bends are too sharp for the lumen's width.
+
+        Raises
+        ------
+        InputError
+            If the file cannot be used: in one sentence, why.
+        """
         nonnegative(OWNER, "smoothing", smoothing)
         positive(OWNER, "scale", scale)
         name = radius if isinstance(radius, str) else None
