@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import vessel_files
 from magwire.cli import main
 from magwire.lumen import Lumen, Vessel
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "lumen"))
-import vessel_files
 
 
 @pytest.fixture

@@ -8,12 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import corrupted_files
 from magwire.errors import InputError
 from magwire.lumen import Lumen, Vessel
 from magwire.lumen.files import load
-
-from . import corrupted_files
-from .vessel_files import CENTRELINES, EVERY, SINGLE, SURFACES, fork, vtp
+from vessel_files import CENTRELINES, EVERY, SINGLE, SURFACES, fork, vtp
 
 LENGTHS = [float(np.linalg.norm(np.diff(p, axis=0), axis=1).sum()) for p, _ in fork()]
 

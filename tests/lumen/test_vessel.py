@@ -12,8 +12,7 @@ from magwire.lumen import Lumen, Vessel
 from magwire.lumen.vessel import survey
 from magwire.lumen.vessel.placement import Placement
 from magwire.lumen.vessel.smooth import smooth
-
-from .vessel_files import Lines, fork, pieces, table, vtp
+from vessel_files import Lines, fork, pieces, table, vtp
 
 S = np.arange(0.0, 100.5, 0.5)
 

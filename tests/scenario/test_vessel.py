@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import vessel_files
 from magwire.errors import ScenarioError
 from magwire.lumen import Lumen
 from magwire.scenario import Scenario, load, parse
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "lumen"))
-import vessel_files
 
 WIRE = """
 [wire]

@@ -15,6 +15,7 @@ WINDOW = 5  # points whose median a spike stands out from
 OUTLYING = 6.0  # distance of a spike from that median, over what is usual along the line
 NOTABLE = 0.5  # and over the radius
 JUMP = 1.6  # factor by which the radius of a spike is off the median
+CLOSE = 0.05  # distance of points that are as good as one, over the radius
 STEP = 0.12  # of the points that come out, over the radius
 MOST = 200_000  # points of a line that come out
 
@@ -55,6 +56,7 @@ def clean(line: Line, number: int) -> Cleaned:
         raise FileFaultError(f"has a line {number} without two distinct points")
     radius = _without_jumps(radius)
     dropped = len(line.points) - len(points)
+    points, radius = _thinned(points, radius)
     return Cleaned(_dense(Line(line.name, points, radius), number), dropped)
 
 
@@ -85,6 +87,18 @@ def _without_jumps(radius: Array) -> Array:
     middle = median_filter(radius, size=WINDOW, mode="nearest")
     jumps = (radius > JUMP * middle) | (radius < middle / JUMP)
     return np.where(jumps, middle, radius)
+
+
+def _thinned(points: Array, radius: Array) -> tuple[Array, Array]:
+    """The means of points that are closer together than ``CLOSE``; the ends as they are."""
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    paces = np.concatenate([[0.0], np.cumsum(2.0 * steps / (radius[1:] + radius[:-1]))])
+    cell = np.floor(paces / CLOSE)
+    cell[0], cell[-1] = -1.0, np.inf
+    first = np.flatnonzero(np.diff(cell, prepend=-2.0) != 0.0)
+    count = np.diff(np.append(first, len(points)))
+    means = np.add.reduceat(np.column_stack([points, radius]), first, axis=0) / count[:, None]
+    return means[:, :3], means[:, 3]
 
 
 def _dense(line: Line, number: int) -> Line:

@@ -18,6 +18,7 @@ NEIGHBOURS = 4  # points along a line that count as joined already
 BRIDGED = 2.0  # largest gap between a line's end and another line, over the radius
 NOTED = 0.5  # gap that is worth a word, over the radius
 WIDE = 1.0  # how far apart the two sides of a loop are, at least, over the radius
+UNLIKE = 1e4  # largest radius over the smallest
 PIECES = 200  # disconnected pieces that are looked at
 
 
@@ -54,6 +55,11 @@ class Network:
         """
         points = np.concatenate([line.points for line in lines])
         radius = np.concatenate([line.radius for line in lines])
+        if radius.max() > UNLIKE * radius.min():
+            raise FileFaultError(
+                f"has radii from {radius.min():.4g} to {radius.max():.4g} m, too different for one "
+                "vessel"
+            )
         first = np.concatenate([[0], np.cumsum([len(line.points) for line in lines])])
         owner = np.repeat(np.arange(len(lines)), np.diff(first))
         stand_in, notes = _merged(points, radius, owner)
@@ -143,10 +149,7 @@ def _merged(points: Array, radius: Array, owner: Indices) -> tuple[Indices, list
     notes: list[str] = []
     if owner[-1] == 0:
         return stand_in, notes
-    tree = KDTree(points)
-    close = tree.query_pairs(MERGED * float(radius.max()), output_type="ndarray")
-    late, early = np.maximum(close[:, 0], close[:, 1]), np.minimum(close[:, 0], close[:, 1])
-    apart = np.linalg.norm(points[late] - points[early], axis=1)
+    late, early, apart = _close_pairs(points, radius)
     narrow = np.minimum(radius[late], radius[early])
     fits = (owner[late] != owner[early]) & (apart <= MERGED * narrow)
     late, early, apart = late[fits], early[fits], apart[fits]
@@ -161,6 +164,26 @@ def _merged(points: Array, radius: Array, owner: Indices) -> tuple[Indices, list
         words = ", ".join(map(str, repeated))
         notes.append(f"Lines that repeat others are left out: {words}.")
     return stand_in, notes
+
+
+def _close_pairs(points: Array, radius: Array) -> tuple[Indices, Indices, Array]:
+    """Pairs that may be closer than ``MERGED``, the later point first, and their distances.
+
+    Points are as dense as their radius is small, so that radii are compared an octave at a time.
+    """
+    octave = np.floor(np.log2(radius / radius.min())).astype(np.int64)
+    parts = []
+    for k in np.unique(octave):
+        these, others = np.flatnonzero(octave == k), np.flatnonzero(octave >= k)
+        found = KDTree(points[these]).sparse_distance_matrix(
+            KDTree(points[others]),
+            MERGED * 2.0 ** (float(k) + 1.0) * float(radius.min()),
+            output_type="ndarray",
+        )
+        parts.append(np.column_stack([these[found["i"]], others[found["j"]], found["v"]]))
+    pairs = np.concatenate(parts)
+    a, b = pairs[:, 0].astype(np.int64), pairs[:, 1].astype(np.int64)
+    return np.maximum(a, b), np.minimum(a, b), pairs[:, 2]
 
 
 def _pairs(stand_in: Indices, owner: Indices) -> Indices:

@@ -1,6 +1,6 @@
 """Broken vessel files: each is read or refused in one sentence, in little time and memory.
 
-``python tests/lumen/corrupted_files.py 10000`` tries that many and says what it took; further
+``python tests/corrupted_files.py 10000`` tries that many and says what it took; further
 arguments are files to start from, next to the small ones of ``vessel_files``.
 """
 
@@ -17,9 +17,7 @@ import warnings
 from collections import Counter
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parent))
 import vessel_files
-
 from magwire.errors import MagwireError
 from magwire.lumen import Vessel
 
