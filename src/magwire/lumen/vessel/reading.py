@@ -132,7 +132,8 @@ class Vessel:
             with np.errstate(all="ignore"):  # numbers of a broken file end in a refusal
                 drawing, notes = _extracted(drawing)
                 lines = [_placed(line, placement, wide, drawing.arrays) for line in drawing.lines]
-                if drawing.entrance and entrance in (None, drawing.entrance):
+                known = entrance is None or isinstance(entrance, str)
+                if drawing.entrance and known and entrance in (None, drawing.entrance):
                     return _finished(lines, drawing.entrance)
                 return _made(lines, entrance, smoothing, notes)
         except FileFaultError as fault:
