@@ -119,6 +119,12 @@ def test_faults(folder: Path, lines: tuple[str, ...], words: str) -> None:
     assert words in sentence
 
 
+def test_without_a_file_there_is_nothing_to_scale(folder: Path) -> None:
+    text = scenario(folder, 'units = "mm"').to_toml()
+    with pytest.raises(ScenarioError, match=r"Input lumen.scale needs lumen.file next to it"):
+        parse(text, ["lumen.scale=2"])
+
+
 def test_only_the_way_to_the_target_has_to_fit_the_wire(tmp_path: Path) -> None:
     lines = vessel_files.fork()
     lines[1] = (lines[1][0], lines[1][1] * np.where(lines[1][0][:, 0] > 45.0, 0.25, 1.0))

@@ -21,7 +21,7 @@ from magwire.scenario.points import inline
 from magwire.scenario.schedules import inline as inline_schedule
 from magwire.scenario.schedules import needs_file
 from magwire.scenario.vessels import inline as inline_vessel
-from magwire.scenario.vessels import way_length
+from magwire.scenario.vessels import needing_a_file, way_length
 
 
 def names() -> tuple[str, ...]:
@@ -90,6 +90,8 @@ def parse(
         if more:
             unread |= {("lumen", "branches"), ("lumen", "target"), ("feed", "distance")}
         _feed_to_target(raw)
+    elif isinstance(lumen, dict) and lumen.get("shape") == "vessel":
+        faults += needing_a_file(lumen)
     navigate = raw.get("navigate")
     if isinstance(navigate, dict) and needs_file(navigate):
         raw["navigate"], more = inline_schedule(navigate, folder or Path())

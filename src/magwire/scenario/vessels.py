@@ -113,6 +113,12 @@ def inline(lumen: dict[str, Any], folder: Path) -> tuple[dict[str, Any], list[st
     return {**rest, "target": name, "branches": rows_of(vessel)}, []
 
 
+def needing_a_file(lumen: dict[str, Any]) -> list[str]:
+    """Faults of a vessel's table without a file: keys that say how to read one."""
+    keys = [key for key in KEYS if key in lumen and key not in ("file", "target")]
+    return [f"Input lumen.{key} needs lumen.file next to it; remove it." for key in keys]
+
+
 def rows_of(vessel: Vessel) -> dict[str, list[list[str]]]:
     """The tubes of a vessel as a scenario has them."""
     return {name: _rows(tube) for name, tube in vessel.tubes.items()}
