@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from magwire.field import GradientField as GradientField
     from magwire.field import UniformField as UniformField
     from magwire.lumen import Lumen as Lumen
+    from magwire.lumen import Vessel as Vessel
     from magwire.navigate import Prescribed as Prescribed
     from magwire.navigate import Schedule as Schedule
     from magwire.navigate.demands import Demands as Demands
@@ -57,6 +58,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "StableNavigator": ("magwire.navigate.stable", "StableNavigator"),
     "TipNavigator": ("magwire.navigate.tip", "TipNavigator"),
     "UniformField": ("magwire.field", "UniformField"),
+    "Vessel": ("magwire.lumen", "Vessel"),
     "Wire": ("magwire.wire", "Wire"),
     "load_scenario": ("magwire.scenario", "load"),
     "scenario_names": ("magwire.scenario", "names"),
@@ -83,6 +85,7 @@ __all__ = [
     "StableNavigator",
     "TipNavigator",
     "UniformField",
+    "Vessel",
     "Wire",
     "__version__",
     "load_scenario",

@@ -14,6 +14,7 @@ from cyclopts import App, CycloptsError, Parameter
 
 import magwire
 from magwire.errors import MagwireError
+from magwire.lumen_app import lumen
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -40,6 +41,7 @@ app = App(
     version_flags=["--version"],
     result_action="return_value",
 )
+app.command(lumen)
 
 
 class CommandError(MagwireError):

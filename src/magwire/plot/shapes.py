@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from matplotlib.patches import Polygon
 from numpy.typing import NDArray
+from scipy.spatial import KDTree
 
 from magwire.plot import style
 
@@ -117,7 +118,7 @@ def draw_spatial(
     """Draw lumen and wires in space, on 3D axes; colours run up to the push ``until``."""
     parts = branches(data)
     for part in parts:
-        x, y, z = _outside(_tube(part), [other for other in parts if other is not part])
+        x, y, z = _outside(tube(part), [other for other in parts if other is not part])
         ax.plot_surface(
             x, y, z, color=style.LUMEN_EDGE, alpha=0.16, linewidth=0.0, shade=False, zorder=1,
             rstride=1, cstride=1, antialiased=True, rasterized=True,
@@ -129,8 +130,13 @@ def draw_spatial(
         ax.plot(*nodes[-1:].T, "o", color=colour, markersize=4, mec="white", mew=0.5, zorder=4)
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
     ax.set_box_aspect(high - low, zoom=1.0 if len(parts) < 2 else 0.95)
-    elevation, azimuth = _view(parts)
+    elevation, azimuth = view(parts)
     ax.view_init(elev=elevation, azim=azimuth)
+    dress(ax)
+
+
+def dress(ax: Any) -> None:
+    """Give axes in space their grid, few ticks and names."""
     for axis, name in zip((ax.xaxis, ax.yaxis, ax.zaxis), "xyz", strict=True):
         axis.set_pane_color((1.0, 1.0, 1.0, 0.0))
         axis.line.set_color(style.MUTED)
@@ -141,7 +147,7 @@ def draw_spatial(
         axis.set_tick_params(pad=-3)
 
 
-def _view(parts: list[Branch]) -> tuple[float, float]:
+def view(parts: list[Branch]) -> tuple[float, float]:
     """Elevation and azimuth [deg]: a tree is seen from where its ends are well apart."""
     if len(parts) < 2:
         return VIEW
@@ -173,6 +179,17 @@ def _outside(wall: tuple[Array, Array, Array], others: list[Branch]) -> tuple[Ar
     lost &= np.roll(inside, 1, axis=1) & np.roll(inside, -1, axis=1)
     corners[lost] = np.nan
     return corners[..., 0], corners[..., 1], corners[..., 2]
+
+
+def leaves(part: Branch, before: list[Branch]) -> int:
+    """Index of the point after which a way is not one with those before it any more."""
+    if not before:
+        return 0
+    points = np.concatenate([other.points for other in before])
+    radius = np.concatenate([other.radius for other in before])
+    away, nearest = KDTree(points).query(part.points)
+    shared = away < 0.5 * radius[nearest]
+    return min(int(np.flatnonzero(shared)[-1]), len(shared) - 2) if shared.any() else 0
 
 
 def _few_ticks() -> Any:
@@ -228,7 +245,7 @@ def _walls(data: xr.Dataset, pair: tuple[int, int]) -> Iterator[tuple[Array, Arr
         yield points + normal, points - normal
 
 
-def _tube(part: Branch) -> tuple[Array, Array, Array]:
+def tube(part: Branch) -> tuple[Array, Array, Array]:
     """The lumen's wall in space: three arrays of shape (q, SIDES) [mm]."""
     every = max(1, len(part.radius) // 160)
     keep = np.unique(np.r_[0 : len(part.radius) : every, len(part.radius) - 1])
