@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html.parser
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -35,7 +36,7 @@ def made_up(ask: Ask, made: Runs, common: object = ()) -> Run:
         writer.append(record)
     status = "no field" if stops else "complete"
     writer.close(status, "At 29 mm <there> is | no field." if stops else "")
-    return Run(writer.result(), 0.5)
+    return Run(writer.result(), (0.1, 0.4))
 
 
 class Words(html.parser.HTMLParser):
@@ -91,6 +92,8 @@ def test_every_part_of_the_page(
     page, text = check_page(tmp_path)
     assert chapter.claims
     assert all(claim.says in text for claim in chapter.claims)
+    judged = [claim for claim in chapter.claims if claim.agrees != "not checked"]
+    assert all("yes" in claim.because for claim in judged)  # the rule is stated
     assert "This is only a part of the page." in page
     if name == "helix":
         assert "The paper&#x27;s optimiser stops: At 29 mm &lt;there&gt; is | no field." in page
@@ -135,6 +138,18 @@ def test_forces_are_compared_as_far_as_both_go() -> None:
         "→ 0 (-100\u00a0%)"
     )
     assert whole == f"{72 * milli:.3g} → {2 * milli:.3g} (-97\u00a0%)"
+
+
+def test_times_of_navigators() -> None:
+    whole = made_up(Ask("half-circle", "stable"), {})
+    stops = replace(made_up(Ask("half-circle", "paper"), {}), plans=(0.001, 0.002, 0.5))
+    made = {("bend", "stable"): (whole, whole), ("bend", "paper"): (stops, None)}
+    first, second = tables.pace_table(made).rows
+    pace = f"{whole.outcome.pace:.3f}"
+    assert first == ("bend", "least field", "250.00", "0.4", pace, pace)
+    assert second[2:4] == ("2.00", "0.5")
+    assert second[4].endswith(" (stops)")
+    assert second[5] == "-"
 
 
 def test_fates_of_replays() -> None:

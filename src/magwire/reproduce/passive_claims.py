@@ -35,7 +35,7 @@ def touches(run: Outcome, first_contact: float | None) -> Claim:
         if found
         else "The wire never touches.",
         judged(found),
-        "forces of the wall in this run",
+        "yes if a force of the wall acts on the tip",
     )
 
 
@@ -54,9 +54,7 @@ def first_stage(run: Outcome) -> Claim:
         if stages
         else "The tip never touches.",
         judged(ended and abs(end - 0.5) < 0.05, ended and gone),
-        "the force is gone at 0.5, but has been since the end of the first stage"
-        if ended and gone and end < 0.45
-        else "end of the first stage, to be within 0.05 of 0.5",
+        "yes if it ends within 0.05 of 0.5, partly if there is no force at 0.5",
     )
 
 
@@ -71,7 +69,8 @@ def valley(run: Outcome, arc: float) -> Claim:
         if len(stages) > 1
         else "There is no second stage of contact.",
         judged(abs(begin - arc) < 0.05),
-        "the wire is nearly as long as the centreline, so X at the valley is about its arc length",
+        "yes within 0.05; the wire is nearly as long as the centreline, so X at the valley is "
+        "about its arc length",
     )
 
 
@@ -109,7 +108,7 @@ def higher_in_space(helix: Outcome, planar: Mapping[str, Outcome]) -> Claim:
         "The largest contact force is significantly higher than in the planar lumens.",
         f"F* = {helix.largest:.1f} against {others}.",
         judged(ratio > 1.25, ratio > 1.0),
-        f"{ratio:.2f} times the largest of them; significant if above 1.25",
+        f"{ratio:.2f} times the largest of them; yes above 1.25, partly above 1",
     )
 
 
@@ -135,7 +134,7 @@ def authors_shapes(distances: Sequence[float]) -> Claim:
         f"{len(distances)} shapes of the wire in two half-circles.",
         f"The mean distance from magwire's shape is at most {worst:.4f} L.",
         judged(worst < 0.005, worst < 0.01),
-        "yes below 0.005 L, half of the tube's radius",
+        "yes below 0.005 L, half of the tube's radius; partly below the whole",
     )
 
 
@@ -147,5 +146,6 @@ def authors_field(theirs: Array, ours: Array) -> Claim:
         "Half-circle, controlled: the field across the tip for X from 0.1 to 0.35.",
         f"The field of Newton's method differs by {percent(part)} of the peak at most.",
         judged(part < 0.05, part < 0.1),
-        "yes below 5 %; the component along the tip is free, and the printed sign is the opposite",
+        "yes below 5 %, partly below 10 %; the component along the tip is free, and the printed "
+        "sign is the opposite",
     )

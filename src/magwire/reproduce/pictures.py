@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
 
+    from magwire.reproduce.runs import Run
+
 Array = NDArray[np.float64]
 DPI = 150
 COLOURS = {"paper": style.TIP, "newton": style.CLEARANCE, "stable": style.FORCE}
@@ -184,7 +186,8 @@ def draw_components(ax: Axes, data: xr.Dataset, title: str) -> None:
 
 def speed(
     steps: Mapping[tuple[str, float], Outcome],
-    updates: Mapping[tuple[str, str, float], tuple[Outcome, float]],
+    updates: Mapping[tuple[str, str, float], Run],
+    plans: Mapping[tuple[str, str, float], Run],
     file: Path,
 ) -> None:
     """Relative compute time against the time step, and against the update step.
@@ -194,26 +197,27 @@ def speed(
     steps
         Passive runs by lumen and time step [s].
     updates
-        Steered runs by lumen, navigator and update step, with the part of the simulated time that
-        the navigator takes.
+        Steered runs by lumen, navigator and update step.
+    plans
+        The same in quasi-static motion.
     file
         Where to.
     """
     with mpl.rc_context(style.RC):
-        figure = canvas(85.0)
-        left, right = figure.subplots(1, 2)
+        figure = canvas(95.0)
+        left, middle, right = axes = figure.subplots(1, 3, sharey=True)
         _time_steps(left, steps)
-        _update_steps(right, updates)
-        for ax, known in ((left, 0.003), (right, 0.005)):
-            ax.set(xscale="log", yscale="log", ylabel="computing time / simulated time")
+        _update_steps(middle, updates, "steered, dt = 10 ms")
+        _update_steps(right, plans, "steered, quasi-static")
+        for ax, known in zip(axes, (0.003, 0.005, 0.005), strict=True):
+            ax.set(xscale="log", yscale="log")
             ax.axhline(1.0, color=style.INK, linewidth=0.8)
-            ax.axvline(known, color=style.MUTED, linewidth=0.7, linestyle=":")
-            ax.set_ylim(None, 3.0)
+            ax.plot(known, 1.0, "*", color=style.INK, markersize=7.0, clip_on=False)
             ax.annotate(
-                "the paper is at 1 here", (known, 1.0), xytext=(4, 4), textcoords="offset points",
-                fontsize=6.5,
-            )  # fmt: skip
-        right.set_ylim(1e-4, None)
+                "the paper", (known, 1.0), xytext=(4, 5), textcoords="offset points", fontsize=6.5
+            )
+        left.set(ylabel="computing time / simulated time", ylim=(3e-5, 3.0))
+        _speed_key(middle)
         save(figure, file)
 
 
@@ -230,21 +234,18 @@ def _time_steps(ax: Axes, steps: Mapping[tuple[str, float], Outcome]) -> None:
     ax.legend(loc="lower left")
 
 
-def _update_steps(
-    ax: Axes, updates: Mapping[tuple[str, str, float], tuple[Outcome, float]]
-) -> None:
+def _update_steps(ax: Axes, updates: Mapping[tuple[str, str, float], Run], title: str) -> None:
     for name, method in dict.fromkeys((n, m) for n, m, _ in updates):
         colour = COLOURS[method]
         made = {s: r for (n, m, s), r in updates.items() if (n, m) == (name, method)}
         push = sorted(made)
-        ax.plot(push, [made[s][0].pace for s in push], color=colour, linewidth=1.1)
-        ax.plot(push, [made[s][1] for s in push], color=colour, linewidth=0.7, ls="--")
-        for step, (run, _) in made.items():
-            face = colour if run.contact_free else "white"
-            ax.plot(step, run.pace, MARKERS[name], mfc=face, mec=colour, markersize=4.2, zorder=4)
+        ax.plot(push, [made[s].outcome.pace for s in push], color=colour, linewidth=1.1)
+        ax.plot(push, [made[s].steering_pace for s in push], color=colour, linewidth=0.7, ls="--")
+        for step, run in made.items():
+            face, pace = colour if run.outcome.contact_free else "white", run.outcome.pace
+            ax.plot(step, pace, MARKERS[name], mfc=face, mec=colour, markersize=4.2, zorder=4)
     ax.set_xlabel(r"update step  $\delta\mathcal{X}$")
-    ax.set_title("steered, dt = 10 ms", loc="left")
-    _speed_key(ax)
+    ax.set_title(title, loc="left")
 
 
 def _speed_key(ax: Axes) -> None:

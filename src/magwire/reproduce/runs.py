@@ -76,12 +76,23 @@ class Run:
     ----------
     result
         What came out.
-    steering
-        Time spent in the navigator [s].
+    plans
+        Time that the navigator took for each answer [s].
     """
 
     result: Result
-    steering: float = 0.0
+    plans: tuple[float, ...] = ()
+
+    @property
+    def steering(self) -> float:
+        """Time spent in the navigator [s]."""
+        return sum(self.plans)
+
+    @property
+    def steering_pace(self) -> float:
+        """The same over simulated time; NaN if the run stopped at once."""
+        simulated = float(self.result.time[-1])
+        return self.steering / simulated if simulated > 0.0 else float("nan")
 
     @cached_property
     def outcome(self) -> Outcome:
@@ -93,17 +104,17 @@ Runs = dict[Ask, Run]
 
 
 class Timed:
-    """A navigator with a watch: ``spent`` is the time that its plans have taken [s]."""
+    """A navigator with a watch: ``plans`` is the time that each of its plans has taken [s]."""
 
     def __init__(self, navigator: Navigator) -> None:
         self.navigator = navigator
-        self.spent = 0.0
+        self.plans: list[float] = []
 
     def plan(self, observation: Observation, until: float) -> Schedule:
         """The navigator's plan; see ``Navigator.plan``."""
         begin = time.perf_counter()
         schedule = self.navigator.plan(observation, until)
-        self.spent += time.perf_counter() - begin
+        self.plans.append(time.perf_counter() - begin)
         return schedule
 
 
@@ -146,7 +157,7 @@ def perform(ask: Ask, runs: Runs, common: Sequence[str] = ()) -> Run | None:
         title=scenario.title,
         scenario=scenario.to_toml(),
     )
-    return Run(result, 0.0 if timed is None else timed.spent)
+    return Run(result, () if timed is None else tuple(timed.plans))
 
 
 def make_all(asks: Iterable[Ask], watch: Callable[[str], None], common: Sequence[str] = ()) -> Runs:

@@ -20,6 +20,12 @@ if TYPE_CHECKING:
 BRANCHES = ("left", "middle", "right")
 ANIMATED = "half-circle"
 """The navigation that moves on the page."""
+SWING = (
+    "In the helix a moderate field alone cannot keep the wire stable once its tip has turned by "
+    "some 150 degrees. The least-field navigator therefore looks for a place from which the wire "
+    "swings, its tip clear all the way, until the wall holds its body. It does so once, within one "
+    "update. While the wire swings it is not at a stable equilibrium."
+)
 
 Claims = Callable[[Runs, Mapping[str, Outcome], float], list[Claim]]
 
@@ -77,12 +83,14 @@ def write_case(scenario: str, claims: Claims, runs: Runs, images: Path) -> Chapt
     )
     chapter.blocks = [
         *stops(made),
+        *([SWING] if scenario == "helix" else []),
+        pace(made["stable"]),
         Picture(
             f"images/{file}",
             f"The {scenario} without and with a field: shapes every 0.1 of X, tip "
             "force, and the field of each navigator. The lumen that is simulated has no virtual "
             "tube; Newton's method and the paper's optimiser plan with one, and begin with a spike "
-            "of the field, where hardly more than the magnet is out of the guide.",
+            "of the field, where only a part of the magnet is out of the guide.",
         ),
     ]
     if scenario == ANIMATED:
@@ -118,6 +126,17 @@ def write_branches(runs: Runs, images: Path) -> Chapter:
         )
     )
     return chapter
+
+
+def pace(run: Run) -> str:
+    """How long the navigator takes, in a sentence."""
+    import numpy as np
+
+    median = float(np.median(run.plans))
+    return (
+        f"The least field: {len(run.plans)} updates, {1e3 * median:.2g} ms in the median, "
+        f"the longest {max(run.plans):.2g} s."
+    )
 
 
 def unsteered(runs: Runs) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 from magwire.reproduce.active_claims import NAMES
 from magwire.reproduce.outcome import Outcome
 from magwire.reproduce.page import Table
-from magwire.reproduce.runs import REPLAYS
+from magwire.reproduce.runs import REPLAYS, Run
 
 TUBES = {"stable": "none", "newton": "planner only", "paper": "planner only"}
 """Where there is a virtual tube; the plant never has one."""
@@ -22,6 +22,14 @@ REDUCTION = (
     "tip, ∫F dt [mN s]",
     "whole wire, peak [mN]",
     "whole wire, ∫F dt [mN s]",
+)
+PACE = (
+    "lumen",
+    "steering",
+    "update, median [ms]",
+    "update, longest [s]",
+    "run, dynamic",
+    "run, quasi-static",
 )
 
 
@@ -63,6 +71,28 @@ def replay_row(
 def reduction_table(rows: list[tuple[str, ...]]) -> Table:
     """The table of wall forces."""
     return Table(REDUCTION, tuple(rows))
+
+
+def pace_table(made: Mapping[tuple[str, str], tuple[Run, Run | None]]) -> Table:
+    """Times of navigators, from runs in dynamic and in quasi-static motion by lumen and method."""
+    rows = []
+    for (lumen, method), (run, plan) in made.items():
+        spent = np.array(run.plans)
+        rows.append(
+            (
+                lumen,
+                NAMES[method],
+                f"{1e3 * float(np.median(spent)):.2f}",
+                f"{float(spent.max()):.2g}",
+                _pace(run),
+                "-" if plan is None else _pace(plan),
+            )
+        )
+    return Table(PACE, tuple(rows))
+
+
+def _pace(run: Run) -> str:
+    return f"{run.outcome.pace:.3f}" + ("" if run.outcome.complete else " (stops)")
 
 
 def replay_table(rows: list[tuple[str, ...]]) -> Table:
