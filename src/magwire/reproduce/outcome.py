@@ -91,6 +91,11 @@ class Outcome:
         """Largest B*."""
         return float(np.max(np.linalg.norm(self.field, axis=1), initial=0.0))
 
+    def peak_field_from(self, push: float) -> float:
+        """Largest B* from a push on."""
+        later = self.field[self.push >= push]
+        return float(np.max(np.linalg.norm(later, axis=1), initial=0.0))
+
     def force_at(self, push: Array | float) -> Array:
         """F* at pushes."""
         return np.asarray(np.interp(push, self.push, self.tip_force) / self.unit)

@@ -217,7 +217,7 @@ def speed(
                 "the paper", (known, 1.0), xytext=(4, 5), textcoords="offset points", fontsize=6.5
             )
         left.set(ylabel="computing time / simulated time", ylim=(3e-5, 3.0))
-        _speed_key(middle)
+        _speed_keys(middle, right)
         save(figure, file)
 
 
@@ -248,19 +248,21 @@ def _update_steps(ax: Axes, updates: Mapping[tuple[str, str, float], Run], title
     ax.set_title(title, loc="left")
 
 
-def _speed_key(ax: Axes) -> None:
+def _speed_keys(left: Axes, right: Axes) -> None:
+    """Who steers, and where."""
     from matplotlib.lines import Line2D
 
     keys = [Line2D([], [], color=COLOURS[name], label=text) for name, text in NAMES.items()]
     keys.append(Line2D([], [], color=style.MUTED, ls="--", lw=0.7, label="navigator alone"))
-    keys += [
+    left.legend(handles=keys, loc="lower left")
+    marks = [
         Line2D([], [], color=style.MUTED, ls="", marker=mark, markersize=4.2, label=name)
         for name, mark in MARKERS.items()
     ]
-    keys.append(
+    marks.append(
         Line2D([], [], ls="", marker="o", mfc="white", mec=style.MUTED, label="touches or stops")
     )
-    ax.legend(handles=keys, ncols=2, loc="lower left", fontsize=6.0)
+    right.legend(handles=marks, loc="lower left")
 
 
 def _force_axes(ax: Axes, data: xr.Dataset) -> None:

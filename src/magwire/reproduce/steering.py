@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 BRANCHES = ("left", "middle", "right")
 ANIMATED = "half-circle"
 """The navigation that moves on the page."""
+
 SWING = (
     "In the helix a moderate field alone cannot keep the wire stable once its tip has turned by "
     "some 150 degrees. The least-field navigator therefore looks for a place from which the wire "
@@ -77,6 +78,10 @@ def write_case(scenario: str, claims: Claims, runs: Runs, images: Path) -> Chapt
     chapter = Chapter(f"Active control: {scenario}")
     made = {method: runs[Ask(scenario, method)] for method in METHODS}
     file = f"{scenario}.png"
+    later = ", ".join(
+        f"{run.outcome.peak_field_from(active_claims.SETTLING):.0f} ({active_claims.NAMES[name]})"
+        for name, run in made.items()
+    )
     passive = runs[Ask(scenario)].result
     pictures.active(
         passive.dataset, {name: run.result.dataset for name, run in made.items()}, images / file
@@ -90,7 +95,8 @@ def write_case(scenario: str, claims: Claims, runs: Runs, images: Path) -> Chapt
             f"The {scenario} without and with a field: shapes every 0.1 of X, tip "
             "force, and the field of each navigator. The lumen that is simulated has no virtual "
             "tube; Newton's method and the paper's optimiser plan with one, and begin with a spike "
-            "of the field, where only a part of the magnet is out of the guide.",
+            "of the field, where only a part of the magnet is out of the guide; the largest fields "
+            f"from X = {active_claims.SETTLING:g} on are {later}.",
         ),
     ]
     if scenario == ANIMATED:
