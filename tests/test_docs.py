@@ -65,7 +65,11 @@ def test_theory_pages_are_in_the_contents() -> None:
     assert {page.stem for page in THEORY.glob("*.md")} - {"index"} <= set(contents)
 
 
-PAGES_WITH_COMMANDS = ("README.md", "CONTRIBUTING.md", "docs/tutorial.md", "docs/index.md")
+PAGES_WITH_COMMANDS = (
+    "README.md",
+    "CONTRIBUTING.md",
+    *(f"docs/{name}.md" for name in ("tutorial", "index", "many", "benchmarks")),
+)
 
 
 def commands(program: str) -> set[str]:
