@@ -6,6 +6,7 @@ import os
 import tempfile
 from collections.abc import Generator, Sequence
 from contextlib import nullcontext
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -63,7 +64,7 @@ def run_there(jobs: Sequence[Job], address: str, workers: int) -> Generator[Answ
 
         def send(count: int) -> list[Any]:
             sent = []
-            for job in [job for _, job in zip(range(count), waiting, strict=False)]:
+            for job in islice(waiting, count):
                 future = client.submit(carry_out, job.scenario, job.file is not None, pure=False)
                 known[future.key] = job
                 sent.append(future)

@@ -28,8 +28,9 @@ def run_many(
 ) -> list[Outcome]:
     """Run independent scenarios, several at a time.
 
-    A run gives the same numbers wherever and next to whatever it is done. One that fails, or brings
-    down its process, is an outcome with the status "failed" and leaves the others alone.
+    A run gives the same numbers alone, next to others and with any number of workers. One that
+    fails, or brings down its process, is an outcome with the status "failed" and leaves the others
+    alone.
 
     Parameters
     ----------

@@ -71,13 +71,17 @@ def draw_sweep(table: xr.Dataset) -> Figure:
                             label=words,
                             linewidths=0.8 if marker == "x" else 0.0,
                             alpha=0.85,
+                            clip_on=False,  # much is zero
+                            zorder=3,
                         )
-                panel.set_ylim(bottom=0.0)
+                largest = max((float(y) for y in values if np.isfinite(y)), default=0.0)
+                panel.set_ylim(0.0, 1.05 * largest or 1.0)
                 if name == names[0]:
                     panel.set_ylabel(title)
             column[-1].set_xlabel(label)
             if ticks:
                 column[-1].set_xticks(range(len(ticks)), ticks)
+                column[-1].set_xlim(-0.5, len(ticks) - 0.5)
         handles, kinds_drawn = _legend(panels)
         figure.legend(
             handles, kinds_drawn, loc="outside upper left", ncols=max(1, len(kinds_drawn))
