@@ -1,4 +1,4 @@
-"""The reference data of tests/data, read once."""
+"""The reference data of tests/data and the authors' curves, read once."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+
+from magwire.published import curve
 
 DATA = Path(__file__).parent / "data"
 Array = NDArray[np.float64]
@@ -29,18 +31,13 @@ def critical_load(case: str) -> float:
     return float(rows[0][1])
 
 
-@lru_cache
-def figure(name: str, series: str) -> Array:
-    """The numbers of one series of a file in paper_figures/, shape (n, columns)."""
-    with (DATA / "paper_figures" / f"{name}.csv").open(encoding="utf-8") as file:
-        rows = [row[1:] for row in csv.reader(file) if row[0] == series]
-    return np.array(rows, dtype=np.float64)
+figure = curve
+"""The numbers of one series of a file of the authors' curves, shape (n, columns)."""
 
 
 @lru_cache
 def control_field() -> tuple[tuple[str, float, float], ...]:
     """Series, push and value of the authors' field in their earlier half-circle."""
-    path = DATA / "paper_figures" / "control_halfcircle_field.csv"
-    with path.open(encoding="utf-8") as file:
-        rows = csv.DictReader(file)
-        return tuple((r["series"], float(r["X_push"]), float(r["value"])) for r in rows)
+    colours = ("green_square", "red_circle")
+    rows = [(c, *row) for c in colours for row in figure("control_halfcircle_field", c).tolist()]
+    return tuple(rows)

@@ -68,7 +68,7 @@ def test_theory_pages_are_in_the_contents() -> None:
 PAGES_WITH_COMMANDS = (
     "README.md",
     "CONTRIBUTING.md",
-    *(f"docs/{name}.md" for name in ("tutorial", "index", "many", "benchmarks")),
+    *(f"docs/{name}.md" for name in ("tutorial", "index", "many", "benchmarks", "reproduce")),
 )
 
 
@@ -220,3 +220,11 @@ def test_citation_and_changelog_carry_the_version() -> None:
     changelog = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     assert f"version: {project['version']}\n" in citation
     assert f"## {project['version']}" in changelog
+
+
+def test_reproduce_page_names_every_part() -> None:
+    from magwire.reproduce.report import PARTS
+
+    text = (ROOT / "docs" / "reproduce.md").read_text(encoding="utf-8")
+    named = re.findall(r"`([a-z-]+)`", " ".join(re.findall(r"^\| (`.*?) \|", text, re.MULTILINE)))
+    assert named == list(PARTS)

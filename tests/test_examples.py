@@ -36,11 +36,20 @@ def own_wire(names: Names) -> None:
     assert names["turned"] == pytest.approx(names["expected"], rel=1e-3)
 
 
+def coronary_tree(names: Names) -> None:
+    assert list(names["vessel"].tubes) == ["end-2", "end-3", "end-4", "end-5", "end-6"]
+    assert names["lumen"].length == pytest.approx(0.135, abs=0.003)
+    assert names["lumen"].path("end-5").narrowest > 0.8e-3
+    assert names["result"].status == "complete"
+    assert names["result"].smallest_clearance > 0.0
+
+
 CHECKS: dict[str, Callable[[Names], None]] = {
     "plot_magnetic_cantilever": magnetic_cantilever,
     "plot_antiparallel_buckling": antiparallel_buckling,
     "plot_half_circle": half_circle,
     "plot_own_wire": own_wire,
+    "plot_coronary_tree": coronary_tree,
 }
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,10 +16,10 @@ from magwire.engine.system import System
 from magwire.field import UniformField
 from magwire.lumen import Lumen
 from magwire.simulation import Simulation
+from magwire.verify.wires import L, flux, free, magnet  # noqa: F401 - tests have them from here
 from magwire.wire import Wire
 
 Array = NDArray[np.float64]
-L = 0.1
 
 
 def paper_wire(nodes: int = 100) -> Wire:
@@ -28,25 +27,6 @@ def paper_wire(nodes: int = 100) -> Wire:
     return Wire.uniform(
         L, 0.6e-3, 3e6, 1e6, 2000.0, nodes, magnetized_tip=5e-3, magnetization=128e3
     )
-
-
-def magnet(nodes: int = 100, part: float = 1.0, **options: Any) -> Wire:
-    """A wire of which the distal part is magnetised, for closed forms."""
-    settings = {"magnetized_tip": part * L, "magnetization": 20e3, "radius": 0.4e-3, **options}
-    stuff = {"youngs_modulus": 3e6, "shear_modulus": 1e6, "density": 2000.0}
-    return Wire.uniform(length=L, nodes=nodes, **stuff, **settings)
-
-
-def flux(wire: Wire, b: float, degrees: float = 0.0) -> Array:
-    """Flux density [T] of b = M B L^2/EI at an angle to the guide, in the xy plane."""
-    size = b * wire.bending_stiffness / (wire.moment_per_length * wire.length**2)
-    angle = np.radians(degrees)
-    return size * np.array([np.cos(angle), np.sin(angle), 0.0])
-
-
-def free(wire: Wire, **options: Any) -> Simulation:
-    """The wire in open space."""
-    return Simulation(wire, Lumen.open_space(), **options)
 
 
 LUMENS = {
@@ -120,7 +100,7 @@ def passive(
         F=np.array([record.tip_force for record in records]) / system.scales.force,
         positions=np.array([record.position for record in records]),
         forces=np.array([record.contact_force for record in records]),
-        clearance=np.array([free.min() if len(free) else np.nan for free in nearest]),
+        clearance=np.array([gaps.min() if len(gaps) else np.nan for gaps in nearest]),
         between=np.array([record.clearance_midpoint for record in records]),
         stable=np.array([record.stable for record in records]),
         peak=march.totals.max_tip_force / system.scales.force,

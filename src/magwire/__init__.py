@@ -21,11 +21,12 @@ if TYPE_CHECKING:
     from magwire.field import GradientField as GradientField
     from magwire.field import UniformField as UniformField
     from magwire.lumen import Lumen as Lumen
+    from magwire.lumen import Vessel as Vessel
     from magwire.many import Outcome as Outcome
     from magwire.many import run_many as run_many
     from magwire.navigate import Prescribed as Prescribed
     from magwire.navigate import Schedule as Schedule
-    from magwire.navigate.stable import Demands as Demands
+    from magwire.navigate.demands import Demands as Demands
     from magwire.navigate.stable import StableNavigator as StableNavigator
     from magwire.navigate.tip import TipNavigator as TipNavigator
     from magwire.results import Result as Result
@@ -41,7 +42,7 @@ if TYPE_CHECKING:
 _HOMES: dict[str, tuple[str, str]] = {
     "Barrier": ("magwire.contact", "Barrier"),
     "ConvergenceError": ("magwire.errors", "ConvergenceError"),
-    "Demands": ("magwire.navigate.stable", "Demands"),
+    "Demands": ("magwire.navigate.demands", "Demands"),
     "Equilibrium": ("magwire.engine.statics", "Equilibrium"),
     "Feed": ("magwire.engine.feed", "Feed"),
     "GradientField": ("magwire.field", "GradientField"),
@@ -60,6 +61,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "StableNavigator": ("magwire.navigate.stable", "StableNavigator"),
     "TipNavigator": ("magwire.navigate.tip", "TipNavigator"),
     "UniformField": ("magwire.field", "UniformField"),
+    "Vessel": ("magwire.lumen", "Vessel"),
     "Wire": ("magwire.wire", "Wire"),
     "load_scenario": ("magwire.scenario", "load"),
     "run_many": ("magwire.many", "run_many"),
@@ -88,6 +90,7 @@ __all__ = [
     "StableNavigator",
     "TipNavigator",
     "UniformField",
+    "Vessel",
     "Wire",
     "__version__",
     "load_scenario",

@@ -14,8 +14,11 @@ from cyclopts import App, CycloptsError, Parameter
 
 import magwire
 from magwire.errors import MagwireError
+from magwire.lumen_app import lumen
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from magwire.engine.record import Record
     from magwire.results import Result
     from magwire.scenario import Scenario
@@ -28,6 +31,7 @@ PASSIVE, SCHEDULE = "result-none.nc", "schedule.csv"
 
 Folder = Annotated[Path | None, Parameter(help="Folder for the output.")]
 Force = Annotated[bool, Parameter(negative="", help="Overwrite what is there.")]
+Names = Annotated[list[str] | None, Parameter(consume_multiple=True)]
 Overrides = Annotated[list[str] | None, Parameter(name="--set", consume_multiple=True)]
 
 app = App(
@@ -37,6 +41,7 @@ app = App(
     version_flags=["--version"],
     result_action="return_value",
 )
+app.command(lumen)
 
 
 class CommandError(MagwireError):
@@ -118,8 +123,7 @@ def plot(result: Path, /, *, out: Folder = None, force: Force = False) -> None:
 
     data = Result.load(result)
     beside = result if result.is_dir() else result.parent
-    compared = (result.is_dir() or result.name == RESULT) and (beside / PASSIVE).exists()
-    passive = Result.load(beside / PASSIVE).dataset if compared else None
+    passive = passive_beside(result)
     folder = out or beside
     if folder.exists() and not folder.is_dir():
         raise CommandError(f"Output folder '{folder}' is a file.")
@@ -324,6 +328,130 @@ def bench(
     return 0
 
 
+@app.command
+def reproduce(*, only: Names = None, out: Folder = None, force: Force = False) -> int:
+    """Run the paper's cases: figures, and what it says next to what magwire finds.
+
+    Parameters
+    ----------
+    only
+        Parts of the page: setup, passive, half-circle, sinusoid, helix, branches, authors, speed.
+    out
+        Folder for reproduce.html, reproduce.md and images; reproduce in the working folder if left
+        out.
+    force
+        Overwrite what a former run left in the folder.
+    """
+    from magwire.progress import pieces
+    from magwire.reproduce import report
+
+    names = report.chosen(only)
+    folder = out or Path("reproduce")
+    check_free(folder, force=force)
+    say_if_compiling()
+    with writing_to(folder), pieces(len(report.asks(names)) + len(names)) as begin:
+        chapters = report.reproduce(folder, names, watch=begin)
+    for chapter in chapters:
+        for text in chapter.broken:
+            complain(text)
+    say(str(folder / report.PAGE))
+    return 1 if any(chapter.broken for chapter in chapters) else 0
+
+
+@app.command
+def animate(
+    result: Path,
+    /,
+    *,
+    out: Path | None = None,
+    width: int = 960,
+    seconds: float = 12.0,
+    force: Force = False,
+) -> None:
+    """Make a moving picture of a result: the wire in its lumen, the field and the tip force.
+
+    Parameters
+    ----------
+    result
+        Result file, or the folder that holds it.
+    out
+        File to write, .gif or .mp4 by its suffix; animation.gif next to the result if left out.
+    width
+        Of the picture, in pixels.
+    seconds
+        How long it takes.
+    force
+        Overwrite the file.
+    """
+    from magwire.plot import animation
+    from magwire.progress import pieces
+    from magwire.results import Result
+
+    data = Result.load(result).dataset
+    beside = result if result.is_dir() else result.parent
+    passive = passive_beside(result)
+    file = out or beside / "animation.gif"
+    if file.exists() and not force:
+        raise CommandError(f"File '{file}' exists already; use --force to overwrite it.")
+    rate = 25 if file.suffix.lower() == ".mp4" else 12
+    with writing_to(file.parent), pieces(round(seconds * rate)) as begin:
+        animation.animate(
+            data,
+            file,
+            passive=passive,
+            width=width,
+            seconds=seconds,
+            rate=rate,
+            watch=lambda *_: begin("frames"),
+        )
+    say(str(file))
+
+
+def passive_beside(result: Path) -> xr.Dataset | None:
+    """The run without steering that was made with a result, if there is one."""
+    from magwire.results import Result
+
+    beside = result if result.is_dir() else result.parent
+    compared = (result.is_dir() or result.name == RESULT) and (beside / PASSIVE).exists()
+    return Result.load(beside / PASSIVE).dataset if compared else None
+
+
+@app.command
+def verify(
+    *,
+    full: Annotated[bool, Parameter(negative="")] = False,
+    only: Annotated[list[str] | None, Parameter(consume_multiple=True)] = None,
+    out: Folder = None,
+    force: Force = False,
+) -> int:
+    """Compare with closed forms and other methods: the evidence that the physics is right.
+
+    Parameters
+    ----------
+    full
+        Run all cases, which takes minutes, and not only the fast ones.
+    only
+        Groups to run: elastica, magnetic, twist, dynamics, contact, authors, consistency, engines.
+    out
+        Folder for the report as verify.html and verify.json; nothing is written if left out.
+    force
+        Overwrite what is there.
+    """
+    from magwire.verify import report
+
+    if out is not None:  # better said before the work than after it
+        check_free(out, force=force)
+        with writing_to(out):
+            pass
+    say_if_compiling()
+    result = report.show(only or tuple(report.GROUPS), full=full)
+    if out is not None:
+        with writing_to(out):
+            for path in report.save(result, out):
+                say(str(path))
+    return 0 if result.passed else 1
+
+
 def carry_out(
     described: Scenario, folder: Path, *, compare: bool = False, force: bool = False
 ) -> int:
@@ -373,16 +501,22 @@ def outcome(result: Result | None) -> int:
 
 def simulate(job: Job, file: Path) -> Result | None:
     """Run a job with a progress bar; None if it was interrupted before its first record."""
-    from magwire.kernels._jit import compiled_before
     from magwire.results import Result
 
-    if not compiled_before():
-        complain("Compiling for this machine; this happens once and takes about half a minute.")
+    say_if_compiling()
     with progress(job.feed.duration) as show:
         try:
             return job.run(file, watch=show)
         except KeyboardInterrupt:  # the file says "interrupted" by now
             return Result.load(file) if file.exists() else None
+
+
+def say_if_compiling() -> None:
+    """Say why nothing happens, the first time."""
+    from magwire.kernels._jit import compiled_before
+
+    if not compiled_before():
+        complain("Compiling for this machine; this happens once and takes about half a minute.")
 
 
 @contextmanager

@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from magwire.verify.wires import order
 from tables import closed_form
 from wires import L, flux, free, magnet
-
-from .order import order
 
 NODES = np.array([26, 51, 101, 201])
 B, ANGLE, X, Y = next(

@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from magwire.verify.wires import order
 from tables import closed_form
 from wires import L, flux, free, magnet
-
-from .order import order
 
 NODES = np.array([26, 51, 101, 201])
 ROWS = {row[:2]: row for row in closed_form("hard_magnetic_elastica_uniform")}

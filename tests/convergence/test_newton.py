@@ -15,10 +15,9 @@ from magwire.engine.statics import Equilibrium
 from magwire.kernels.arrays import Motion
 from magwire.kernels.newton import Limits, newton
 from magwire.simulation import Simulation
+from magwire.verify.wires import order
 from tangent import copy
 from wires import L, flux, free, lumen, magnet, paper_wire
-
-from .order import order
 
 Array = NDArray[np.float64]
 

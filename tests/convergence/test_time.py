@@ -13,10 +13,9 @@ from magwire.field import UniformField
 from magwire.kernels.arrays import State
 from magwire.kernels.assembly import update_frames
 from magwire.kernels.march import Plan, Tally, march
+from magwire.verify.wires import order
 from tangent import copy, free_rows, mass, stiffness
 from wires import L, flux, free, magnet
-
-from .order import order
 
 Array = NDArray[np.float64]
 NODES = 31

@@ -9,15 +9,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.integrate import solve_bvp
 
 from magwire.engine.statics import Equilibrium
 from magwire.field import GradientField
+from magwire.verify.references.pendulum import under_force
+from magwire.verify.wires import order
 from magwire.wire import Section, Wire
 from tables import closed_form
 from wires import L, free
-
-from .order import order
 
 NODES = np.array([26, 51, 101, 201])
 ROWS = closed_form("cantilever_tip_force_bisshopp_drucker")
@@ -67,17 +66,10 @@ def test_second_order_in_space(row: tuple[float, ...]) -> None:
     assert order(1.0 / (NODES - 1.5), errors) == pytest.approx(2.0, abs=0.2)
 
 
-def exact(load: float) -> NDArray[np.float64]:
+def exact(load: float) -> tuple[float, float, float]:
     """Tip angle, deflection and abscissa of theta'' = -P cos(theta), over L."""
-    s = np.linspace(0.0, 1.0, 200)
-    solution = solve_bvp(
-        lambda _, y: np.vstack([y[1], -load * np.cos(y[0]), np.sin(y[0]), np.cos(y[0])]),
-        lambda start, end: np.array([start[0], end[1], start[2], start[3]]),
-        s,
-        np.vstack([load * s * (1.0 - 0.5 * s), load * (1.0 - s), 0.5 * load * s**2, s]),
-        tol=1e-9,
-    )
-    return np.asarray(solution.y[[0, 2, 3], -1])
+    bent = under_force(load, 0.5 * np.pi)
+    return bent.angle, bent.y, bent.x
 
 
 def test_clamp_at_the_entrance_not_in_the_middle_of_an_edge() -> None:

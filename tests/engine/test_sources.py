@@ -11,10 +11,9 @@ from magwire.engine.statics import Equilibrium
 from magwire.errors import ConvergenceError
 from magwire.field import FieldSource, GradientField, UniformField
 from magwire.kernels.hinge import material_frame
+from magwire.verify.references.dipole import Dipole
 from magwire.wire import Wire, lay_out
 from wires import L, free, paper_wire
-
-from .dipole import Dipole
 
 NEAR = Dipole((0.12, 0.05, 0.01), (0.5, 1.0, -0.25))
 FAR = Dipole((0.20, 0.10, 0.02), (10.0, 20.0, -4.0))

@@ -75,7 +75,7 @@ def test_all_branches_are_drawn_each_without_what_is_inside_of_another() -> None
     data = made(tree(), 5)
     parts = shapes.branches(data)
     assert len(parts) == 2
-    wall = np.stack(shapes._outside(shapes._tube(parts[1]), parts[:1]), axis=-1)
+    wall = np.stack(shapes._outside(shapes.tube(parts[1]), parts[:1]), axis=-1)
     hidden = np.isnan(wall).any(axis=(1, 2))
     assert hidden[:5].all()
     assert not hidden[len(wall) // 2 :].any()

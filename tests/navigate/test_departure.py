@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from magwire.engine import Feed
-from magwire.navigate import Observation, Prescribed
+from magwire.navigate import Prescribed
 from magwire.navigate.stable import StableNavigator
 from magwire.scenario import schedule_of
 from magwire.wire import Wire
@@ -50,15 +50,3 @@ def test_nobody_compares_without_a_model() -> None:
     for result in (passive, blind):
         assert np.isnan(result.tip_departure).all()
         assert np.isnan(result.largest_tip_departure)
-
-
-def test_a_model_at_another_feed_is_not_compared() -> None:
-    """A navigator that plans farther than it was asked to."""
-    sim = simulation("half-circle", paper_wire())
-
-    class Farther(StableNavigator):
-        def plan(self, observation: Observation, until: float):  # type: ignore[no-untyped-def]
-            return super().plan(observation, until + 1e-3)
-
-    result = sim.run(Feed(1e-3, 0.005), Farther(sim.system), motion="quasi-static")
-    assert np.isnan(result.tip_departure).all()

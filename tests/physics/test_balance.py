@@ -9,11 +9,10 @@ from numpy.typing import NDArray
 from magwire.contact import Barrier
 from magwire.engine.statics import Equilibrium
 from magwire.field import FieldSource, GradientField, UniformField
-from magwire.kernels.arrays import Motion
-from magwire.kernels.assembly import assemble
 from magwire.kernels.hinge import material_frame
 from magwire.lumen import Lumen
 from magwire.simulation import Simulation
+from magwire.verify.wires import guide_load as scaled_guide_load
 from magwire.wire import Wire, lay_out
 from wires import L, lumen
 
@@ -41,17 +40,9 @@ def wire() -> Wire:
 
 def guide_load(state: Equilibrium) -> tuple[Array, Array]:
     """Force [N] of the guide on the wire, and its torque about the origin [N m]."""
-    point = state.point
-    system, work = point.system, point.system.new_work()
-    model = (system.rod, point.field, system.new_wall(), system.walls)
-    still = Motion(0.0, work.target)
-    assemble(model, point.state, point.mouth, still, work.gradient, work.no_band)
-    held, q = point.mouth.held, point.state.q
-    rows, tangents = work.gradient[held - 1 :], point.state.tangent[held - 1 :]
-    assert np.abs(rows[2:]).max() < 1e-7  # free: in equilibrium
-    torque = np.cross(q[held - 1 :, :3], rows[:, :3]).sum(axis=0)
-    torque += (rows[:-1, 3:] * tangents).sum(axis=0)  # turning an edge turns its frame along
-    return rows[:, :3].sum(axis=0) * system.scales.force, torque * system.scales.force * L
+    force, torque = scaled_guide_load(state)
+    unit = state.point.system.scales.force
+    return force * unit, torque * unit * L
 
 
 def magnet_load(state: Equilibrium, field: FieldSource) -> tuple[Array, Array]:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
@@ -12,21 +10,11 @@ from magwire.engine.system import System
 from magwire.kernels.arrays import Field, Motion, Mouth
 from magwire.kernels.assembly import assemble
 from magwire.lumen import Lumen
+from magwire.verify.wires import critical
 from tables import closed_form, critical_load
 from wires import L, flux, free, magnet
 
 TABLE = [row[:2] for row in closed_form("critical_antiparallel_field")]
-
-
-def bisect(stable: Callable[[float], bool], expected: float) -> float:
-    """Where stability ends, between 10 percent below and above what is expected."""
-    low, high = 0.9 * expected, 1.1 * expected
-    assert stable(low)
-    assert not stable(high)
-    while high - low > 1e-5 * expected:
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if stable(middle) else (low, middle)
-    return low
 
 
 @pytest.mark.parametrize(("part", "expected"), TABLE, ids=[f"{row[0]:g}" for row in TABLE])
@@ -39,7 +27,7 @@ def test_critical_antiparallel_field(part: float, expected: float) -> None:
         assert state.tip[0] == pytest.approx(L)
         return state.stable
 
-    assert bisect(stable, expected) == pytest.approx(expected, rel=1e-3)
+    assert critical(stable, expected) == pytest.approx(expected, rel=1e-3)
 
 
 def test_short_magnet_buckles_as_a_dipole() -> None:
@@ -47,18 +35,18 @@ def test_short_magnet_buckles_as_a_dipole() -> None:
     wire = magnet(100, 1.01 / 99)
     sim = free(wire)
     scale = 99 / 1.01
-    critical = bisect(lambda b: sim.equilibrium(L, flux(wire, b, 180.0)).stable, 1.01 * scale)
-    assert critical / scale == pytest.approx(critical_load("tip dipole"), rel=0.02)
+    found = critical(lambda b: sim.equilibrium(L, flux(wire, b, 180.0)).stable, 1.01 * scale)
+    assert found / scale == pytest.approx(critical_load("tip dipole"), rel=0.02)
 
 
 def test_critical_field_has_an_imperfect_buckling_branch() -> None:
     """A field 0.1 degrees off: hardly bent below the critical field, far over above it."""
     wire = magnet(100)
     sim = free(wire)
-    critical = critical_load("hard_magnetic antiparallel")
+    expected = critical_load("hard_magnetic antiparallel")
     angles = []
     for part in (0.9, 1.1):
-        state = sim.equilibrium(L, flux(wire, part * critical, 179.9))
+        state = sim.equilibrium(L, flux(wire, part * expected, 179.9))
         assert state.stable
         angles.append(np.degrees(np.arccos(state.tip_direction[0])))
     assert angles[0] < 2.0
@@ -103,7 +91,8 @@ def test_twist_buckling_of_a_clamped_wire() -> None:
     expected = critical_load("twist_clamped_clamped")
     # M = GJ angle / l with l between the clamps, so M l/EI = angle GJ/EI.
     found = [
-        bisect(lambda load, n=n: smallest_stiffness(load / ratio, n) > 0.0, expected) for n in nodes
+        critical(lambda load, n=n: smallest_stiffness(load / ratio, n) > 0.0, expected)
+        for n in nodes
     ]
     errors = expected - np.array(found)
     assert np.all(errors > 0.0)

@@ -33,18 +33,18 @@ def same(first: Schedule, second: Schedule) -> bool:
 def test_defaults_of_stable_are_written_out() -> None:
     scenario = load("half-circle")
     assert scenario.navigate.update_every == 5e-4
-    assert scenario.navigate.tip_clearance == 0.5
+    assert scenario.navigate.tip_clearance == 0.4
     assert scenario.navigate.stability_margin == 1.0
     assert scenario.navigate.field_tolerance == 0.05
     assert scenario.navigate.max_field is None
     text = scenario.to_toml()
-    assert 'method = "stable"\nupdate_every = "0.5 mm"\ntip_clearance = 0.5\n' in text
+    assert 'method = "stable"\nupdate_every = "0.5 mm"\ntip_clearance = 0.4\n' in text
     assert 'stability_margin = "1 1/s^2"' in text
     assert parse(text) == scenario
 
 
 def test_demands_reach_the_navigator() -> None:
-    keys = ["method=stable", "update_every=1 mm", "plan_every=0.3 mm", "tip_clearance=0.4"]
+    keys = ["method=stable", "update_every=1 mm", "plan_every=0.3 mm", "tip_clearance=0.3"]
     keys += ["stability_margin=2 1/s²", "field_tolerance=0", "max_field=60 mT"]
     keys += ["max_field_rate=5 T/m"]
     scenario = load("half-circle", [f"navigate.{key}" for key in keys])
@@ -55,15 +55,15 @@ def test_demands_reach_the_navigator() -> None:
     assert isinstance(navigator, StableNavigator)
     assert navigator.plan_every == 3e-4
     demands = navigator.demands
-    assert (demands.tip_clearance, demands.stability_margin) == (0.4, 2.0)
+    assert (demands.tip_clearance, demands.stability_margin) == (0.3, 2.0)
     assert (demands.field_tolerance, demands.max_field, demands.max_field_rate) == (0.0, 0.06, 5.0)
     assert scenario.navigate.build(simulation) is not navigator  # each run has its own memory
 
 
 def test_another_method_starts_the_table_anew() -> None:
-    keys = ["navigate.tip_clearance=0.4", "navigate.method=stable"]
+    keys = ["navigate.tip_clearance=0.3", "navigate.method=stable"]
     steered = load("half-circle", keys)
-    assert steered.navigate.tip_clearance == 0.4
+    assert steered.navigate.tip_clearance == 0.3
     passive = parse(steered.to_toml(), ["navigate.method=none"])
     assert passive == load("half-circle", ["navigate.method=none"]) == steered.unsteered()
     assert parse(steered.to_toml(), ["navigate.method=stable"]) == steered

@@ -23,7 +23,7 @@ LIBRARY = (
     "straight",
 )
 BRANCHES = ("left", "middle", "right")
-PASSIVE = ("helix", "straight")
+PASSIVE = ("straight",)
 
 
 def test_library_is_complete() -> None:

@@ -7,32 +7,23 @@ inverse of its part, so the right-hand sides come from differences of gradients 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_banded
 
-from magwire.engine.system import System
+from magwire.engine.parameters import parameter_loads
+from magwire.engine.point import Point
 from magwire.errors import one_of
-from magwire.kernels.arrays import Field, Motion, Mouth, State, Work
+from magwire.kernels.arrays import Field, Motion, Mouth, Work
 from magwire.kernels.assembly import FIRST, assemble
 from magwire.kernels.band import WIDTH, factor, solve
+from magwire.wire import Parameter
 
 Array = NDArray[np.float64]
 Output = Literal["tip", "positions", "tip_direction"]
-Input = Literal["field", "gradient", "feed", "twist"]
-
-
-@dataclass(frozen=True)
-class Point:
-    """An equilibrium as the kernels hold it."""
-
-    system: System
-    field: Field
-    state: State
-    mouth: Mouth
+Input = Literal["field", "gradient", "feed", "twist", Parameter]
 
 
 def derivative(point: Point, output: Output, wrt: Input) -> Array:
@@ -82,6 +73,8 @@ def _loads(point: Point, wrt: Input) -> tuple[Array, tuple[int, ...], float]:
                 Field(here + middle @ unit.T, point.field.gradient + unit.ravel(), middle, False)
             )
         return _differences(point, fields, work), (3, 3), 1.0 / system.wire.length
+    if wrt != "feed" and wrt != "twist":
+        return *parameter_loads(point, wrt, work), 1.0
     band = _band(point, work)
     lead = np.zeros(FIRST)
     if wrt == "twist":
@@ -101,26 +94,16 @@ def _here(field: Field, middle: Array) -> Array:
     return result
 
 
-def _gradient(point: Point, field: Field, mouth: Mouth, work: Work) -> Array:
-    """Gradient of the energy, scaled, shape [nodes + 1, 4]."""
-    system = point.system
-    model = (system.rod, field, system.new_wall(), system.walls)
-    still = Motion(0.0, work.target)
-    assemble(model, point.state, mouth, still, work.gradient, work.no_band)
-    return work.gradient.copy()
-
-
 def _differences(point: Point, fields: list[Field], work: Work) -> Array:
-    base = _gradient(point, point.field, point.mouth, work)
-    return np.stack([_gradient(point, field, point.mouth, work) - base for field in fields])
+    base = point.gradient(work)
+    return np.stack([point.gradient(work, field=field) - base for field in fields])
 
 
 def _by_part(point: Point, work: Work) -> Array:
     """Derivative of the gradient by the part of the mouth's cell; it is linear in its inverse."""
     part = point.mouth.fraction
-    there = _gradient(point, point.field, Mouth(point.mouth.held, 2.0 * part), work)
-    here = _gradient(point, point.field, point.mouth, work)
-    return (there - here) * 2.0 / part
+    there = point.gradient(work, mouth=Mouth(point.mouth.held, 2.0 * part))
+    return (there - point.gradient(work)) * 2.0 / part
 
 
 def _band(point: Point, work: Work) -> Array:

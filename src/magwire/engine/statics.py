@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.engine.point import Point
 from magwire.engine.sampling import SAMPLINGS, mismatch, sample
-from magwire.engine.sensitivity import Input, Output, Point, derivative
+from magwire.engine.sensitivity import Input, Output, derivative
 from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.errors import ConvergenceError, finite, within
@@ -85,7 +86,10 @@ class Equilibrium:
             ``"tip_direction"``, shape (3,).
         wrt
             ``"field"``, shape (3,) [T]; ``"gradient"``, shape (3, 3) [T/m], dB_i/dx_j about the
-            origin; ``"feed"`` [m]; or ``"twist"`` [rad].
+            origin; ``"feed"`` [m]; ``"twist"`` [rad]; or a parameter of each section of the wire:
+            ``"youngs_modulus"`` and ``"shear_modulus"``, shape (sections,) [Pa],
+            ``"magnetization"``, shape (sections, 3) [A/m], ``"radius"``, shape (sections,) [m], in
+            which a bore stays as it is.
 
         Returns
         -------

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from pathlib import Path
 from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +20,9 @@ from magwire.lumen import shapes
 from magwire.lumen.branch import Bend, Branch
 from magwire.lumen.grid import build, scaled
 from magwire.lumen.tree import BLEND, join
+
+if TYPE_CHECKING:
+    from magwire.lumen.vessel import Spot
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int32]
@@ -242,6 +247,37 @@ class Lumen:
         width = nonnegative("Lumen.tree", "blend", width, "m")
         walls, paths = join(lines, width)
         return cls(walls, blend=width, paths=paths, target=target)
+
+    @classmethod
+    def read(
+        cls,
+        path: str | Path,
+        units: str | None = None,
+        *,
+        target: Spot | None = None,
+        **options: Any,
+    ) -> Lumen:
+        """Vessel from a file of centrelines, or of a surface, whose centrelines are extracted.
+
+        Parameters
+        ----------
+        path, units
+            The file, and the unit of its numbers, such as "mm"; needed unless the file states it.
+        target
+            Outlet to go to: its name, the number of its end from one, or a point [m]; the first
+            one if left out.
+        options
+            The others of ``Vessel.read``: ``entrance``, ``radius``, ``scale``, ``rotation``,
+            ``translation`` and ``smoothing``.
+
+        Raises
+        ------
+        InputError
+            If the file cannot be used: in one sentence, why.
+        """
+        from magwire.lumen.vessel import Vessel
+
+        return Vessel.read(path, units, **options).lumen(target)
 
     @classmethod
     def open_space(cls) -> Lumen:

@@ -25,6 +25,7 @@ WIDER = 1.05  # largest radius of a branch where it leaves, over its parent's
 RUN_IN = 1.0  # length over which a branch takes on its radius, at least, over the radius
 STEEPNESS = 5.0  # that length over what the radius gains, at least
 ROUNDING = 1.6  # bend radius of a path around the corner of a junction, over the parent's radius
+MOUTH = 1.5  # how far from the entrance a branch leaves that has a wall of its own from there on
 OFF_AXIS = 0.5  # farthest from its parent's centreline that a branch starts, over the radius
 DENSITY = 8.0  # samples per radius of arc length
 
@@ -103,6 +104,8 @@ def _attach(
     near = SHARED * float(first.radius[0])
     if np.linalg.norm(line.entrance - first.entrance) <= near:
         start = _leaves(name, line, ways)
+        if start < MOUTH * float(line.radius[0]):  # its cap would stand in the entrance
+            return line, line
         path, arcs = line, sampled(line.curve)
         arcs = np.append(start, arcs[arcs > start + 0.5 * arcs[1]])
     else:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,6 +22,9 @@ from magwire.navigate.schedule import Schedule
 
 Array = NDArray[np.float64]
 
+SAME = 1e-9  # feeds that differ by less are the same [m]
+GLANCE = 10  # steps between two looks at the tip while the wire moves
+
 
 @dataclass(frozen=True)
 class View:
@@ -29,8 +32,12 @@ class View:
 
     Attributes
     ----------
+    flux
+        The flux density, shape (3,) [T].
+    axes
+        Two unit vectors across the centreline where the tip is, shape (2, 3).
     offset
-        From the centreline to the tip, across it, in two axes, shape (2,) [m].
+        From the centreline to the tip, in these axes, shape (2,) [m].
     offset_by_flux
         Shape (2, 3) [m/T].
     radius
@@ -41,11 +48,18 @@ class View:
         Shape (3,) [rad^2/s^2 per T].
     """
 
+    flux: Array
+    axes: Array
     offset: Array
     offset_by_flux: Array
     radius: float
     eigenvalue: float
     eigenvalue_by_flux: Array
+
+    @property
+    def distance(self) -> float:
+        """From the centreline to the tip [m]."""
+        return float(np.linalg.norm(self.offset))
 
 
 @dataclass(frozen=True)
@@ -117,6 +131,10 @@ class Model:
         steps = max(1, int(np.ceil(abs(feed - self.feed) / (0.5 * edge) - 1e-9)))
         course = np.linspace(self.feed, feed, steps + 1) / length
         plan = Plan(course, np.zeros(steps + 1), 1.0, 0.0, False)
+        return self._march(plan, 0, steps)
+
+    def _march(self, plan: Plan, first: int, last: int) -> bool:
+        """Do some steps of a plan; whether all of them converged."""
         done, self._held, status = march(
             self._model(),
             self.system.guide,
@@ -125,14 +143,45 @@ class Model:
             self._work,
             self._limits,
             plan,
-            0,
-            steps,
+            first,
+            last,
             self._held,
             Tally(np.zeros(4), np.zeros(3)),
         )
-        self.solves += steps
-        self.feed = float(course[done]) * length
+        self.solves += last - first
+        self.feed = float(plan.feed[first + done]) * self.system.wire.length
+        if len(plan.flux) > 0:
+            self.flux = plan.flux[first + done]
         return bool(status == Status.CONVERGED)
+
+    def play(self, schedule: Schedule, speed: float, time_step: float) -> Iterator[float]:
+        """Feed the wire on along a schedule with inertia, as the plant would.
+
+        Starts at rest where the model is and ends in motion: settle next.
+
+        Yields
+        ------
+        float
+            Now and then the tip's distance from the centreline over the lumen's radius; infinity
+            where a step did not converge.
+        """
+        length, first, last = self.system.wire.length, self.feed, float(schedule.feed[-1])
+        steps = max(1, int(np.ceil(abs(last - first) / (speed * time_step) - 1e-9)))
+        feeds = np.linspace(first, last, steps + 1)
+        plan = Plan(
+            feeds / length,
+            np.zeros(steps + 1),
+            time_step,
+            self.system.damping,
+            True,
+            schedule.at(feeds),
+            self.flux.copy(),
+        )
+        self._velocity[:] = 0.0
+        for step in range(0, steps, GLANCE):
+            good = self._march(plan, step, min(step + GLANCE, steps))
+            _, offset, radius = self.tip()
+            yield float(np.linalg.norm(offset)) / radius if good else float("inf")
 
     def plan(self, until: float, every: float, find_field: Callable[[float], None]) -> Schedule:
         """The schedule up to a feed [m], with a field found at least ``every`` [m].
@@ -165,6 +214,26 @@ class Model:
         value = linearise(self._model(), self._state, mouth, self._work, self._linear)
         if not value > 0.0:
             return None
+        axes, offset, radius = self.tip()
+        return View(
+            flux=self.flux,
+            axes=axes,
+            offset=offset,
+            offset_by_flux=axes @ self._tip_moves() * self.system.wire.length,
+            radius=radius,
+            eigenvalue=float(value),
+            eigenvalue_by_flux=self._linear.slope.copy(),
+        )
+
+    def tip(self) -> tuple[Array, Array, float]:
+        """Where the tip is in the path.
+
+        Returns
+        -------
+        tuple
+            Two axes across the path, shape (2, 3); the tip's offset in them, shape (2,) [m]; the
+            lumen's radius there [m].
+        """
         length = self.system.wire.length
         tip = self._state.q[-1, :3]
         _, arc, branch, _ = gap_value(self._tube, *tip)
@@ -172,13 +241,12 @@ class Model:
         where = np.array([arc * length])
         centre, along = curve.at(where)[0], curve.at(where, 1)[0, :3]
         axes = across(along)
-        return View(
-            offset=axes @ (tip * length - centre[:3]),
-            offset_by_flux=axes @ self._tip_moves() * length,
-            radius=float(centre[3]),
-            eigenvalue=float(value),
-            eigenvalue_by_flux=self._linear.slope.copy(),
-        )
+        return axes, axes @ (tip * length - centre[:3]), float(centre[3])
+
+    def expected_tip(self, feed: float) -> Array | None:
+        """Position of the tip, shape (3,) [m], if the model is at this feed [m]; otherwise None."""
+        tip: Array = self._state.q[-1, :3] * self.system.wire.length
+        return tip if abs(self.feed - feed) < SAME else None
 
     def tube_force(self) -> Array:
         """Force of the virtual tube on the tip, shape (3,) [N] (P-19)."""

@@ -29,11 +29,17 @@ class Observation:
         Length of wire inside the lumen [m].
     tip, tip_direction
         Measured position [m] and unit direction of the tip, shape (3,).
+    goal
+        Feed at which the run ends [m], if that is known: how far it pays to look ahead.
+    speed
+        Of the feed at the moment [m/s], if that is known.
     """
 
     feed: float
     tip: Array
     tip_direction: Array
+    goal: float | None = None
+    speed: float | None = None
 
 
 class Navigator(Protocol):

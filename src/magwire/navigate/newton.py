@@ -61,6 +61,10 @@ class NewtonNavigator:
         """The field from the observed feed on; see ``Navigator.plan``."""
         return self.model.plan(until, self.plan_every, self._go_to)
 
+    def expected_tip(self, feed: float) -> Array | None:
+        """Where the tip should be at a feed [m], shape (3,) [m]; None if that is not known."""
+        return self.model.expected_tip(feed)
+
     def _go_to(self, feed: float) -> None:
         model = self.model
         where = f"At {feed * 1e3:.4g} mm of feed"

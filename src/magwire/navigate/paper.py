@@ -94,6 +94,10 @@ class PaperNavigator:
             self._optimise(until)
         return Schedule(np.array([until]), self.model.flux[None])
 
+    def expected_tip(self, feed: float) -> Array | None:
+        """Where the tip should be at a feed [m], shape (3,) [m]; None if that is not known."""
+        return self.model.expected_tip(feed)
+
     def _optimise(self, feed: float) -> None:
         """Algorithm 1, lines 3 to 13."""
         model, numbers = self.model, self.optimiser

@@ -1,78 +1,34 @@
 """Steering with the least field that keeps the tip off the wall, stably (P-22, P-23).
 
-At every planned feed the field b solves
-
-    min |b|^2 / 2   subject to   |offset(b)| <= room   and   eigenvalue(b) >= margin
-
-by sequential quadratic programming: both constraints are linearised with the sensitivities of the
-equilibrium, the circle of the offset being a polygon, and the next programme starts from the
-equilibrium in the new field. So that the schedule holds without help, the constraints are asked
-for again in fields that are too weak and too strong by a tolerance.
+The plan runs ahead of the wire. Where it ends, or its field grows too fast, it is taken back, and a
+course is looked for that leans the wire on the wall.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import replace
 
-import daqp
 import numpy as np
 from numpy.typing import NDArray
 
 from magwire.engine.system import System
-from magwire.errors import InputError, positive, within
+from magwire.errors import InputError, positive
 from magwire.lumen import Lumen
-from magwire.navigate.model import Model, View
+from magwire.navigate.demands import Demands
+from magwire.navigate.model import Model
 from magwire.navigate.navigator import NavigationError, Observation
+from magwire.navigate.pilot import Knot, Pilot, norm
+from magwire.navigate.programme import Programme
 from magwire.navigate.schedule import Schedule
+from magwire.navigate.swing import Swings
 
 Array = NDArray[np.float64]
 
-SIDES = 16  # of the polygon around the circle in which the tip may be
-PROGRAMMES = 8  # per planned feed, at most
-SETTLED = 5e-4  # they end when the field changes by less than this, in REFERENCE
-TRUST = 0.3  # largest change of a component of the field in one programme, in REFERENCE
-HALVINGS = 6
-ROUND_OFF = 1e-4  # a rise of the merit by less does not matter
-PENALTY = 300.0  # price of missing a constraint: it is paid only where there is no other way
-MISSED = 0.1  # part of the lumen's radius, or of the margin, by which a constraint may be missed
-REFERENCE = 100.0  # field of order one inside, in EI/(M L^2)
-OFF_ROOM = 1.4  # room for the tip in a field that is off, over the room in the field itself
-
-
-@dataclass(frozen=True)
-class Demands:
-    """What a field schedule must keep to.
-
-    Parameters
-    ----------
-    tip_clearance
-        Of the tip to the wall, as part of the clearance on the centreline, between 0 and 1.
-    stability_margin
-        Smallest eigenvalue of the tangent stiffness against the lumped mass [rad^2/s^2].
-    field_tolerance
-        Part by which the field may be off without harm.
-    max_field
-        Largest flux density [T].
-    max_field_rate
-        Largest change of the flux density per length fed [T/m].
-    """
-
-    tip_clearance: float = 0.5
-    stability_margin: float = 1.0
-    field_tolerance: float = 0.05
-    max_field: float = float("inf")
-    max_field_rate: float = float("inf")
-
-    def __post_init__(self) -> None:
-        within("Demands", "tip_clearance", self.tip_clearance, low=0.0, high=1.0)
-        positive("Demands", "stability_margin", self.stability_margin, "rad^2/s^2")
-        within("Demands", "field_tolerance", self.field_tolerance, low=0.0, high=0.5)
-        for name, unit in (("max_field", "T"), ("max_field_rate", "T/m")):
-            value = getattr(self, name)
-            if not value > 0.0:
-                raise InputError(
-                    f"Input {name} of Demands must be positive; received {value} {unit}."
-                )
+REFERENCE = 100.0  # field of order one, in EI/(M L^2)
+AHEAD = 0.1  # feed that the plan runs ahead, in the wire's length
+SCOUT = 0.15  # feed beyond the plan's end in which the wall must come to hold the wire, in that
+GROWTH = 2.0  # of the field while the plan runs ahead, with which another course is looked for
+CLOSE = 1e-9  # two feeds are the same [m]
 
 
 class StableNavigator:
@@ -105,6 +61,7 @@ class StableNavigator:
     ) -> None:
         self.demands = Demands() if demands is None else demands
         path = system.path if path is None else path
+        self._length = system.wire.length
         if len(path.branches) != 1:
             raise InputError(
                 "Input path of StableNavigator must have one branch; "
@@ -113,141 +70,119 @@ class StableNavigator:
         length = 5e-3 * system.wire.length if plan_every is None else plan_every
         self.plan_every = positive("StableNavigator", "plan_every", length, "m")
         self.model = Model(system, path)
-        self._unit = REFERENCE * system.scales.flux_density
-        self._keep_off = system.wire.radius if system.contact.wall == "surface" else 0.0
-        angles = 2.0 * np.pi * np.arange(SIDES) / SIDES
-        self._sides: Array = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        programme = Programme(
+            self.demands,
+            REFERENCE * system.scales.flux_density,
+            system.wire.radius if system.contact.wall == "surface" else 0.0,
+        )
+        unlimited = replace(programme, demands=replace(self.demands, max_field=float("inf")))
+        self._pilot, self._scout = Pilot(self.model, programme), Pilot(self.model, unlimited)
+        self._swings = Swings(self.model, programme)
+        self._begin(Knot(0.0, self.model.remember(), None), back=False)
 
     def plan(self, observation: Observation, until: float) -> Schedule:
         """The field from the observed feed on; see ``Navigator.plan``."""
-        model = self.model
-        if abs(model.feed - observation.feed) > 1e-9:
-            self._go_to(observation.feed)
-        return model.plan(until, self.plan_every, self._go_to)
+        back = until < observation.feed
+        if observation.speed is not None and observation.speed != 0.0:
+            self._swings.speed = abs(observation.speed)
+        self._take_up(observation.feed, back)
+        end = until
+        if not back and observation.goal is not None:
+            end = max(until, min(until + AHEAD * self._length, observation.goal))
+        self._extend(end)
+        short = until - self._knots[-1].feed
+        if self._failure is not None and (short < -CLOSE if back else short > CLOSE):
+            raise self._failure
+        weak = self.demands.weakening
+        return Schedule.along([(knot.feed, knot.flux / weak) for knot in self._knots])
 
-    def _go_to(self, feed: float) -> None:
-        """Feed the model on and find the field there."""
-        model = self.model
-        before, moved = model.flux, abs(feed - model.feed)
-        if not model.feed_to(feed):
-            raise NavigationError(
-                f"At {feed * 1e3:.4g} mm of feed the navigator's model of the wire found no "
-                "equilibrium; try a smaller plan_every."
-            )
-        if not model.released:
+    def expected_tip(self, feed: float) -> Array | None:
+        """Where the tip should be at a feed [m], shape (3,) [m]; None between planned fields."""
+        knot = next((knot for knot in self._knots if abs(knot.feed - feed) < CLOSE), None)
+        if knot is None:
+            return None
+        self.model.return_to(knot.memory)
+        self.model.settle(knot.flux / self.demands.weakening)
+        return self.model.expected_tip(feed)
+
+    def _begin(self, knot: Knot, back: bool) -> None:
+        """Plan anew from a knot on."""
+        self.model.return_to(knot.memory)
+        self._knots, self._back = [knot], back
+        self._failure: NavigationError | None = None
+        self._pilot.forget()
+        self._searched = 0.0
+
+    def _take_up(self, feed: float, back: bool) -> None:
+        """Drop what lies behind the wire; if the plan does not lead on from here, begin anew."""
+        knots = self._knots
+        feeds = [knot.feed for knot in knots]
+        if back == self._back and min(feeds) - CLOSE <= feed <= max(feeds) + CLOSE:
+            passed = [k for k in knots if (k.feed >= feed if back else k.feed <= feed + CLOSE)]
+            self._knots = knots[max(0, len(passed) - 1) :]
             return
-        largest = self.demands.max_field_rate * moved
-        view = self._view(feed)
-        for _ in range(PROGRAMMES):
-            change = self._programme(view, before, largest) * self._unit
-            view, taken = self._try(change, view)
-            if float(np.linalg.norm(taken)) < SETTLED * self._unit:
-                break
-        self._judge(view, feed)
+        nearest = min(knots, key=lambda knot: abs(knot.feed - feed))
+        self._begin(nearest, back=feed < nearest.feed)
+        self._extend(feed)
+        if self._failure is not None:
+            raise self._failure
+        self._begin(self._knots[-1], back)
 
-    def _view(self, feed: float) -> View:
-        view = self.model.look()
-        if view is None:
-            raise NavigationError(
-                f"At {feed * 1e3:.4g} mm of feed the wire becomes unstable before the field can "
-                "follow; try a smaller plan_every or a larger stability_margin."
-            )
-        return view
+    def _extend(self, end: float) -> None:
+        """Plan on to a feed, as far as it goes."""
+        while self._failure is None:
+            last = self._knots[-1]
+            left = end - last.feed
+            if abs(left) < CLOSE or (left < 0.0) != self._back:
+                return
+            feed = last.feed + float(np.copysign(min(self.plan_every, abs(left)), left))
+            try:
+                self._knots[-1:] = self._pilot.advance(last, feed)
+            except NavigationError as failure:
+                if not self._swing():
+                    self._failure = failure
+            else:
+                if self._grows():
+                    self._swing()
 
-    def _room(self, view: View) -> float:
-        """How far from the centreline the tip may be [m]."""
-        clearance = view.radius - self._keep_off
-        return clearance * (1.0 - self.demands.tip_clearance)
+    def _grows(self) -> bool:
+        """Whether the field that holds the wire grows so fast that the wall had better do it."""
+        last = self._knots[-1]
+        if self._back or self._swings.is_held(last.view):
+            return False
+        near = [k for k in self._knots if k.feed >= last.feed - AHEAD * self._length - CLOSE]
+        return norm(last.flux) > GROWTH * max(norm(near[0].flux), self._searched)
 
-    def _constraints(self, view: View) -> tuple[Array, Array, Array]:
-        """The linearised constraints, rows . change - missed <= upper.
+    def _swing(self) -> bool:
+        """Take the plan back to where the wire can swing onto the wall; whether it can."""
+        knots = self._knots
+        if self._back or self._swings.is_held(knots[-1].view):
+            return False
+        self._searched = norm(knots[-1].flux)
+        course = self._swings.find(knots, self._held(knots), self._searched)
+        if course is None:
+            return False
+        self._knots = course
+        self._pilot.forget()
+        return True
 
-        Returns
-        -------
-        tuple
-            Rows, shape (m, 5), for the change of the field in units of its own and for how far
-            offset and eigenvalue miss what is asked for; upper bounds, shape (m,); and which
-            of the two misses a row belongs to, shape (m,).
+    def _held(self, knots: list[Knot]) -> list[Knot]:
+        """The course of the wire when the wall holds it, by rising feed; empty if it does not.
+
+        It is found by going on, in whatever field that takes, until the wall holds the wire, and
+        then back from there.
         """
-        unit, size, margin = self._unit, view.radius, self.demands.stability_margin
-        b = self.model.flux / unit
-        offset, by_field = view.offset / size, view.offset_by_flux * (unit / size)
-        weight = max(view.eigenvalue, margin)
-        value, by_eigen = view.eigenvalue / weight, view.eigenvalue_by_flux * (unit / weight)
-        rows, upper = [], []
-        tolerance = self.demands.field_tolerance
-        offs = (0.0, -tolerance, tolerance) if tolerance > 0.0 else (0.0,)
-        for off in offs:
-            room = self._room(view) / size * (1.0 if off == 0.0 else OFF_ROOM)
-            rows.append(self._sides @ by_field * (1.0 + off))
-            upper.append(room - self._sides @ (offset + off * (by_field @ b)))
-            rows.append(-by_eigen[None] * (1.0 + off))
-            upper.append(np.array([value + off * (by_eigen @ b) - margin / weight]))
-        kind = np.tile(np.array([0] * SIDES + [1]), len(offs))
-        misses = -np.eye(2)[kind]
-        return np.hstack([np.concatenate(rows), misses]), np.concatenate(upper), kind
-
-    def _merit(self, view: View) -> float:
-        """What a programme minimises, at the field as it is."""
-        _, upper, kind = self._constraints(view)
-        missed = sum(max(0.0, float(-upper[kind == k].min())) for k in (0, 1))
-        b = self.model.flux / self._unit
-        return 0.5 * float(b @ b) + PENALTY * missed
-
-    def _programme(self, view: View, before: Array, largest: float) -> Array:
-        """Change of the field by one quadratic programme, shape (3,), in units of its own."""
-        b = self.model.flux / self._unit
-        rows, upper, _ = self._constraints(view)
-        low, high = np.full(3, -TRUST), np.full(3, TRUST)
-        if np.isfinite(largest):
-            low = np.maximum(low, (before - largest) / self._unit - b)
-            high = np.maximum(low, np.minimum(high, (before + largest) / self._unit - b))
-        solution, _, flag, _ = daqp.solve(
-            np.eye(5),
-            np.concatenate([b, [PENALTY, PENALTY]]),
-            np.ascontiguousarray(rows),
-            np.concatenate([high, [1e3, 1e3], upper]),
-            np.concatenate([low, [0.0, 0.0], np.full(len(upper), -1e30)]),
-            np.zeros(5 + len(upper), dtype=np.int32),
-        )
-        if flag < 1:
-            raise NavigationError(
-                f"At {self.model.feed * 1e3:.4g} mm of feed the quadratic programme for the field "
-                f"has no solution (exit flag {flag})."
-            )
-        result: Array = solution[:3]
-        return result
-
-    def _try(self, change: Array, view: View) -> tuple[View, Array]:
-        """Go to the changed field, or as much of the way as makes things better."""
-        model = self.model
-        start, merit = model.remember(), self._merit(view)
-        for _ in range(HALVINGS):
-            if model.settle(start.flux + change):
-                there = model.look()
-                if there is not None and self._merit(there) <= merit + ROUND_OFF:
-                    return there, change
-                model.return_to(start)
-            change = 0.5 * change
-        return view, np.zeros(3)
-
-    def _judge(self, view: View, feed: float) -> None:
-        """Raise if the field found does not do what is asked for."""
-        demands, flux = self.demands, float(np.linalg.norm(self.model.flux))
-        where = f"At {feed * 1e3:.4g} mm of feed"
-        offset, room = float(np.linalg.norm(view.offset)), self._room(view)
-        if offset > room + MISSED * view.radius:
-            raise NavigationError(
-                f"{where} no stable field was found that keeps the tip within {room * 1e3:.3g} mm "
-                f"of the centreline; with {flux * 1e3:.3g} mT it is {offset * 1e3:.3g} mm away."
-            )
-        if view.eigenvalue < (1.0 - MISSED) * demands.stability_margin:
-            raise NavigationError(
-                f"{where} the equilibrium's stability is {view.eigenvalue:.3g} rad^2/s^2 at best; "
-                f"the margin asked for is {demands.stability_margin:.3g} rad^2/s^2."
-            )
-        if flux > demands.max_field:
-            raise NavigationError(
-                f"{where} the tip needs {flux * 1e3:.3g} mT; the limit is "
-                f"{demands.max_field * 1e3:.3g} mT."
-            )
+        scout, last = self._scout, knots[-1]
+        scout.forget()
+        found: list[Knot] = []
+        try:
+            while not self._swings.is_held(last.view):
+                if last.feed > knots[-1].feed + SCOUT * self._length:
+                    return []
+                _, last = scout.advance(last, last.feed + self.plan_every)
+            while self._swings.is_held(last.view) and last.feed > knots[0].feed:
+                found.insert(0, last)
+                found[0], last = scout.advance(last, last.feed - self.plan_every)
+        except NavigationError:
+            pass
+        return found

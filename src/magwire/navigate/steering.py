@@ -7,20 +7,22 @@ from dataclasses import replace
 from typing import Protocol, runtime_checkable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from magwire.engine.dynamics import March
 from magwire.engine.record import Record
-from magwire.navigate.model import Model
 from magwire.navigate.navigator import Navigator, Observation
 
-SAME = 1e-9  # feeds that differ by less are the same [m]
+Array = NDArray[np.float64]
 
 
 @runtime_checkable
 class Modelled(Protocol):
-    """A navigator that has a model of the wire."""
+    """A navigator that knows where the tip should be."""
 
-    model: Model
+    def expected_tip(self, feed: float) -> Array | None:
+        """Where the tip should be at a feed [m], shape (3,) [m]; None if that is not known."""
+        ...
 
 
 def steered_records(
@@ -50,10 +52,13 @@ def steered_records(
         If the navigator finds no field.
     """
     yield march.record()
+    goal = float(march.feeds(march.steps).max())
     seen, gone = observe(march), float("nan")
     while march.step < march.steps:
         if march.step % update == 0:
             feeds = march.feeds(march.step + update)
+            speed = float(feeds[-1] - seen.feed) / (len(feeds) * march.time_step)
+            seen = replace(seen, goal=goal, speed=speed)
             march.steer(navigator.plan(seen, float(feeds[-1])).at(feeds))
         step = min(every - march.step % every, update - march.step % update)
         converged = march.advance(step)
@@ -74,11 +79,6 @@ def observe(march: March) -> Observation:
 
 
 def departure(navigator: Navigator, seen: Observation) -> float:
-    """Distance of the tip from where the navigator's model has it [m].
-
-    NaN for a navigator without a model, or one whose model is at another feed.
-    """
-    if not isinstance(navigator, Modelled) or abs(navigator.model.feed - seen.feed) > SAME:
-        return float("nan")
-    tip = navigator.model.remember().state.q[-1, :3] * navigator.model.system.wire.length
-    return float(np.linalg.norm(seen.tip - tip))
+    """Distance of the tip from where the navigator expects it [m]; NaN if it does not say."""
+    tip = navigator.expected_tip(seen.feed) if isinstance(navigator, Modelled) else None
+    return float("nan") if tip is None else float(np.linalg.norm(seen.tip - tip))

@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 
 from magwire.engine.system import System
 from magwire.errors import positive
+from magwire.navigate.demands import Demands
 from magwire.navigate.navigator import Navigator
-from magwire.navigate.stable import Demands, StableNavigator
+from magwire.navigate.stable import StableNavigator
 
 
 @dataclass(frozen=True)

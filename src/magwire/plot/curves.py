@@ -38,7 +38,7 @@ def draw_force(ax: Axes, data: xr.Dataset, passive: xr.Dataset | None = None) ->
     ax.set_ylim(0.0, room * top if top > 0.0 else 1.0)
     ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 5, 10]))
     ax.set_ylabel(r"tip force  $\mathcal{F}$")
-    _second_axis(ax, 1e3 * float(data.attrs["force_scale"]), "[mN]")
+    second_axis(ax, 1e3 * float(data.attrs["force_scale"]), "[mN]")
     if passive is not None:
         ax.legend(loc="upper left", ncols=2, borderaxespad=0.1, columnspacing=1.2)
     if top == 0.0:
@@ -65,7 +65,7 @@ def draw_field(ax: Axes, data: xr.Dataset) -> None:
     ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 5, 10]))
     scale = float(data.attrs["field_scale"])
     if np.isfinite(scale):
-        _second_axis(ax, 1e3 * scale, r"$\mathcal{B}$", inverse=True)
+        second_axis(ax, 1e3 * scale, r"$\mathcal{B}$", inverse=True)
 
 
 def draw_clearance(ax: Axes, data: xr.Dataset) -> None:
@@ -114,7 +114,7 @@ def _peak(ax: Axes, push: Array, force: Array, colour: str) -> None:
     )
 
 
-def _second_axis(ax: Axes, factor: float, label: str, *, inverse: bool = False) -> None:
+def second_axis(ax: Axes, factor: float, label: str, *, inverse: bool = False) -> None:
     """A scale on the right: the left one times ``factor``, or over it."""
     k = 1.0 / factor if inverse else factor
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from matplotlib.patches import Polygon
 from numpy.typing import NDArray
+from scipy.spatial import KDTree
 
 from magwire.plot import style
 
@@ -61,18 +62,22 @@ def aspect(data: xr.Dataset) -> float:
     pair = plane(data)
     if pair is None:
         return 1.0
-    low, high = _window(data)
+    low, high = window(data)
     size = high - low
     return float(size[pair[0]] / size[pair[1]])
 
 
-def snapshots(data: xr.Dataset, most: int = 8) -> list[int]:
-    """Indices of the records to draw: at even feeds on round numbers, and the last one."""
+def snapshots(data: xr.Dataset, most: int = 8, *, until: float | None = None) -> list[int]:
+    """Indices of the records to draw: at even feeds on round numbers, and the last one.
+
+    The feeds are even over pushes up to ``until``; over those of the run if it is left out.
+    """
     push = data["normalized_push"].values
     if push.size == 0:
         return []
     last = float(push.max())
-    step = next((s for s in (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0) if last / s <= most), last)
+    whole = last if until is None else until
+    step = next((s for s in (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0) if whole / s <= most), whole)
     wanted = [*np.arange(step, last + 1e-9, step)] if step > 0.0 else []
     if not wanted or last - wanted[-1] > 0.6 * step:
         wanted.append(last)
@@ -80,18 +85,25 @@ def snapshots(data: xr.Dataset, most: int = 8) -> list[int]:
     return [int(np.argmax(push >= feed - 1e-9)) for feed in wanted]
 
 
-def draw_planar(ax: Axes, data: xr.Dataset, pair: tuple[int, int]) -> None:
-    """Draw lumen and wires in a coordinate plane."""
+def draw_planar(
+    ax: Axes,
+    data: xr.Dataset,
+    pair: tuple[int, int],
+    *,
+    wires: bool = True,
+    until: float | None = None,
+) -> None:
+    """Draw lumen and wires in a coordinate plane; colours run up to the push ``until``."""
     i, j = pair
     for left, right in _walls(data, pair):
         for wall in (left, right):
             ax.plot(*wall.T, color=style.LUMEN_EDGE, linewidth=0.9, zorder=1)
         corners = np.concatenate([left, right[::-1]])
         ax.add_patch(Polygon(corners, facecolor=style.LUMEN_FILL, edgecolor="none", zorder=2))
-    for nodes, colour in _wires(data):
+    for nodes, colour in _wires(data, until) if wires else ():
         ax.plot(nodes[:, i], nodes[:, j], color=colour, linewidth=1.6, zorder=3)
         ax.plot(*nodes[-1, [i, j]], "o", color=colour, markersize=4, mec="white", mew=0.5, zorder=4)
-    low, high = _window(data)
+    low, high = window(data)
     ax.set_xlim(low[i], high[i])
     ax.set_ylim(low[j], high[j])
     ax.set_aspect("equal")
@@ -100,24 +112,31 @@ def draw_planar(ax: Axes, data: xr.Dataset, pair: tuple[int, int]) -> None:
     ax.set_ylabel(f"{'xyz'[j]} [mm]")
 
 
-def draw_spatial(ax: Any, data: xr.Dataset) -> None:
-    """Draw lumen and wires in space, on three-dimensional axes."""
+def draw_spatial(
+    ax: Any, data: xr.Dataset, *, wires: bool = True, until: float | None = None
+) -> None:
+    """Draw lumen and wires in space, on 3D axes; colours run up to the push ``until``."""
     parts = branches(data)
     for part in parts:
-        x, y, z = _outside(_tube(part), [other for other in parts if other is not part])
+        x, y, z = _outside(tube(part), [other for other in parts if other is not part])
         ax.plot_surface(
             x, y, z, color=style.LUMEN_EDGE, alpha=0.16, linewidth=0.0, shade=False, zorder=1,
             rstride=1, cstride=1, antialiased=True, rasterized=True,
         )  # fmt: skip
-    low, high = _window(data)
-    for nodes, colour in _wires(data):
+    low, high = window(data)
+    for nodes, colour in _wires(data, until) if wires else ():
         inside = nodes[np.all((nodes >= low) & (nodes <= high), axis=1)]
         ax.plot(*inside.T, color=colour, linewidth=1.8, zorder=3)
         ax.plot(*nodes[-1:].T, "o", color=colour, markersize=4, mec="white", mew=0.5, zorder=4)
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
     ax.set_box_aspect(high - low, zoom=1.0 if len(parts) < 2 else 0.95)
-    elevation, azimuth = _view(parts)
+    elevation, azimuth = view(parts)
     ax.view_init(elev=elevation, azim=azimuth)
+    dress(ax)
+
+
+def dress(ax: Any) -> None:
+    """Give axes in space their grid, few ticks and names."""
     for axis, name in zip((ax.xaxis, ax.yaxis, ax.zaxis), "xyz", strict=True):
         axis.set_pane_color((1.0, 1.0, 1.0, 0.0))
         axis.line.set_color(style.MUTED)
@@ -128,7 +147,7 @@ def draw_spatial(ax: Any, data: xr.Dataset) -> None:
         axis.set_tick_params(pad=-3)
 
 
-def _view(parts: list[Branch]) -> tuple[float, float]:
+def view(parts: list[Branch]) -> tuple[float, float]:
     """Elevation and azimuth [deg]: a tree is seen from where its ends are well apart."""
     if len(parts) < 2:
         return VIEW
@@ -162,6 +181,17 @@ def _outside(wall: tuple[Array, Array, Array], others: list[Branch]) -> tuple[Ar
     return corners[..., 0], corners[..., 1], corners[..., 2]
 
 
+def leaves(part: Branch, before: list[Branch]) -> int:
+    """Index of the point after which a way is not one with those before it any more."""
+    if not before:
+        return 0
+    points = np.concatenate([other.points for other in before])
+    radius = np.concatenate([other.radius for other in before])
+    away, nearest = KDTree(points).query(part.points)
+    shared = away < 0.5 * radius[nearest]
+    return min(int(np.flatnonzero(shared)[-1]), len(shared) - 2) if shared.any() else 0
+
+
 def _few_ticks() -> Any:
     from matplotlib.ticker import MaxNLocator
 
@@ -173,15 +203,18 @@ def _all_nodes(data: xr.Dataset) -> Array:
     return nodes if len(nodes) else np.zeros((1, 3))
 
 
-def _wires(data: xr.Dataset) -> Iterator[tuple[Array, Any]]:
-    """Nodes [mm] and colours of the wires to draw; the longest first, so that none is hidden."""
+def _wires(data: xr.Dataset, until: float | None) -> Iterator[tuple[Array, Any]]:
+    """Nodes [mm] and colours of the wires to draw; the longest first, so that none is hidden.
+
+    The darkest colour stands for the push ``until``; for the last one if it is left out.
+    """
     push = data["normalized_push"].values
-    last = float(push.max()) if push.size else 1.0
-    for k in reversed(snapshots(data)):
+    last = until or (float(push.max()) if push.size else 1.0)
+    for k in reversed(snapshots(data, until=until)):
         yield 1e3 * data["position"].values[k], style.PUSH(push[k] / last if last else 1.0)
 
 
-def _window(data: xr.Dataset) -> tuple[Array, Array]:
+def window(data: xr.Dataset) -> tuple[Array, Array]:
     """Corners of what is shown [mm]: the lumen with a margin and the last bit of the guide."""
     parts = branches(data)
     if not parts:
@@ -212,7 +245,7 @@ def _walls(data: xr.Dataset, pair: tuple[int, int]) -> Iterator[tuple[Array, Arr
         yield points + normal, points - normal
 
 
-def _tube(part: Branch) -> tuple[Array, Array, Array]:
+def tube(part: Branch) -> tuple[Array, Array, Array]:
     """The lumen's wall in space: three arrays of shape (q, SIDES) [mm]."""
     every = max(1, len(part.radius) // 160)
     keep = np.unique(np.r_[0 : len(part.radius) : every, len(part.radius) - 1])

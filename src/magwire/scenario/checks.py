@@ -18,6 +18,7 @@ from magwire.scenario.tables import (
     UniformFieldTable,
     UniformWire,
 )
+from magwire.scenario.vessels import VesselLumen
 from magwire.units import show
 
 Faults = Iterator[str]
@@ -84,6 +85,8 @@ def magnetized_sections(scenario: Scenario) -> Faults:
 
 def wire_fits(scenario: Scenario) -> Faults:
     """The wire is thinner than the lumen."""
+    if any(outlets(scenario)):
+        return
     wire, lumen = scenario.wire.largest_radius, scenario.lumen.narrowest
     if wire >= lumen:
         yield (
@@ -94,6 +97,8 @@ def wire_fits(scenario: Scenario) -> Faults:
 
 def activation_gap(scenario: Scenario) -> Faults:
     """A wire in the middle of the lumen does not feel the wall."""
+    if any(outlets(scenario)):
+        return
     wire, lumen = scenario.wire.largest_radius, scenario.lumen.narrowest
     free = lumen - wire if scenario.contact.wall == "surface" else lumen
     if wire < lumen and scenario.contact.activation_gap >= free:
@@ -116,9 +121,9 @@ def radii(scenario: Scenario) -> Faults:
 def outlets(scenario: Scenario) -> Faults:
     """The arc lengths of a tree's branches start at zero and grow; the target is one of them."""
     lumen = scenario.lumen
-    if not isinstance(lumen, TreeLumen):
+    if not isinstance(lumen, (TreeLumen, VesselLumen)):
         return
-    for name, rows in lumen.branches.items():
+    for name, rows in lumen.branches.items() if isinstance(lumen, TreeLumen) else ():
         arcs = [row[0] for row in rows]
         if arcs[0] != 0.0 or any(b <= a for a, b in itertools.pairwise(arcs)):
             yield (
@@ -135,7 +140,7 @@ def bends(scenario: Scenario) -> Faults:
     lumen = scenario.lumen
     if any(radii(scenario)) or any(outlets(scenario)):
         return
-    if isinstance(lumen, PointsLumen):
+    if isinstance(lumen, (PointsLumen, VesselLumen)):
         yield from refusals(lumen.build)
     elif lumen.tightest_bend <= lumen.radius:
         yield (

@@ -35,6 +35,7 @@ from magwire.scenario.tables import (
     UniformFieldTable,
     UniformWire,
 )
+from magwire.scenario.vessels import VesselLumen
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -64,7 +65,13 @@ Wire = Annotated[
     Discriminator(_which_wire),
 ]
 Lumen = Annotated[
-    StraightLumen | HalfCircleLumen | SinusoidLumen | HelixLumen | TreeLumen | PointsLumen,
+    StraightLumen
+    | HalfCircleLumen
+    | SinusoidLumen
+    | HelixLumen
+    | TreeLumen
+    | PointsLumen
+    | VesselLumen,
     Field(discriminator="shape"),
 ]
 FieldOfTheMagnet = Annotated[UniformFieldTable | GradientFieldTable, Field(discriminator="kind")]
@@ -88,6 +95,7 @@ CHOICES: dict[str, tuple[str, dict[str, type[Table]]]] = {
             "helix": HelixLumen,
             "tree": TreeLumen,
             "points": PointsLumen,
+            "vessel": VesselLumen,
         },
     ),
     "field": ("kind", {"uniform": UniformFieldTable, "gradient": GradientFieldTable}),

@@ -66,7 +66,7 @@ class StableSteering(ModelSteering):
 
     method: Literal["stable"]
     plan_every: Length | None = None
-    tip_clearance: Part = 0.5
+    tip_clearance: Part = 0.4
     stability_margin: Stability = preset("1 1/s^2")
     field_tolerance: Tolerance = 0.05
     max_field: FieldLimit | None = None
@@ -74,7 +74,8 @@ class StableSteering(ModelSteering):
 
     def build(self, simulation: Simulation) -> Navigator | None:
         """The navigator of one run, as yet without a memory."""
-        from magwire.navigate.stable import Demands, StableNavigator
+        from magwire.navigate.demands import Demands
+        from magwire.navigate.stable import StableNavigator
 
         limits = {"max_field": self.max_field, "max_field_rate": self.max_field_rate}
         demands = Demands(

@@ -20,6 +20,8 @@ from magwire.scenario.partial import partial_scenario
 from magwire.scenario.points import inline
 from magwire.scenario.schedules import inline as inline_schedule
 from magwire.scenario.schedules import needs_file
+from magwire.scenario.vessels import inline as inline_vessel
+from magwire.scenario.vessels import needing_a_file, way_length
 
 
 def names() -> tuple[str, ...]:
@@ -82,12 +84,29 @@ def parse(
         faults += more
         if more:
             unread |= {("lumen", "points"), ("lumen", "radius")}
+    elif isinstance(lumen, dict) and lumen.get("shape", "vessel") == "vessel" and "file" in lumen:
+        raw["lumen"], more = inline_vessel({**lumen, "shape": "vessel"}, folder or Path())
+        faults += more
+        if more:
+            unread |= {("lumen", "branches"), ("lumen", "target"), ("feed", "distance")}
+        _feed_to_target(raw)
+    elif isinstance(lumen, dict) and lumen.get("shape") == "vessel":
+        faults += needing_a_file(lumen)
     navigate = raw.get("navigate")
     if isinstance(navigate, dict) and needs_file(navigate):
         raw["navigate"], more = inline_schedule(navigate, folder or Path())
         faults += more
         unread |= {("navigate", "table")} if more else set()
     return _validate(raw, faults, unread)
+
+
+def _feed_to_target(raw: dict[str, Any]) -> None:
+    """Feed as far as the target, unless the scenario says how far."""
+    feed = raw.get("feed")
+    if isinstance(feed, dict) and not {"distance", "table", "twist_table"} & set(feed):
+        length = way_length(raw["lumen"])
+        if length is not None:
+            raw["feed"] = {**feed, "distance": length}
 
 
 def json_schema() -> dict[str, Any]:

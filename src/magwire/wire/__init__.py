@@ -1,7 +1,8 @@
 """The wire: sections of round cross-section, laid out on a mesh."""
 
 from magwire.wire.mesh import Mesh, lay_out
+from magwire.wire.rates import Parameter, mesh_rates
 from magwire.wire.section import Section
 from magwire.wire.wire import Wire
 
-__all__ = ["Mesh", "Section", "Wire", "lay_out"]
+__all__ = ["Mesh", "Parameter", "Section", "Wire", "lay_out", "mesh_rates"]

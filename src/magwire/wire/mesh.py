@@ -3,6 +3,9 @@
 Sections need not end at nodes. Masses, moments and rest curvatures of an edge or a cell are
 integrals over it; stiffnesses come from the integral of the compliance, since stretches of a
 wire act in series. So totals do not depend on the mesh.
+
+What a mesh changes by when a section does follows by the chain rule: of k = 1 / int ds / EI,
+dk = k^2 int d(EI) / EI^2 ds.
 """
 
 from __future__ import annotations
@@ -52,42 +55,53 @@ class Mesh:
     radius: Array
 
 
+class Cells:
+    """The bounds of a wire's edges and cells, and integrals over them."""
+
+    def __init__(self, wire: Wire) -> None:
+        self.sections = wire.sections
+        self.station = np.linspace(0.0, wire.length, wire.nodes)
+        middle = 0.5 * (self.station[1:] + self.station[:-1])
+        self.bounds = np.concatenate(([0.0], middle, [wire.length]))
+        self.ends = np.concatenate(([0.0], np.cumsum([part.length for part in wire.sections])))
+        self.ends[-1] = wire.length
+        which = np.searchsorted(self.ends, self.station, side="left") - 1
+        self.which = np.clip(which, 0, len(wire.sections) - 1)
+
+    def total(self, bounds: Array, density: Callable[[Section], float]) -> Array:
+        """Integral of a density over each interval between bounds."""
+        return self.spread(bounds, np.array([density(section) for section in self.sections]))
+
+    def spread(self, bounds: Array, heights: Array) -> Array:
+        """The same, of a density given section by section, shape (sections, ...)."""
+        wide = heights.reshape(len(heights), -1)
+        pieces = wide * np.diff(self.ends)[:, None]
+        sums = np.concatenate((np.zeros((1, wide.shape[1])), np.cumsum(pieces, axis=0)))
+        columns = [np.diff(np.interp(bounds, self.ends, column)) for column in sums.T]
+        return np.stack(columns, axis=-1).reshape(-1, *heights.shape[1:])
+
+
 def lay_out(wire: Wire) -> Mesh:
     """Lay a wire out on its evenly spaced nodes."""
-    station = np.linspace(0.0, wire.length, wire.nodes)
-    middle = 0.5 * (station[1:] + station[:-1])
-    cells = np.concatenate(([0.0], middle, [wire.length]))
-    ends = np.concatenate(([0.0], np.cumsum([section.length for section in wire.sections])))
-    ends[-1] = wire.length
-
-    def total(bounds: Array, density: Callable[[Section], float]) -> Array:
-        """Integral of a density over each interval between bounds."""
-        heights = np.array([density(section) for section in wire.sections])
-        sums = np.concatenate(([0.0], np.cumsum(heights * np.diff(ends))))
-        return np.diff(np.interp(bounds, ends, sums))
-
-    def vectors(bounds: Array, density: Callable[[Section], tuple[float, ...]]) -> Array:
-        count = len(density(wire.sections[0]))
-        return np.stack(
-            [total(bounds, lambda s, c=c: density(s)[c]) for c in range(count)],  # type: ignore[misc]
-            axis=1,
-        )
-
+    cells = Cells(wire)
+    station, bounds = cells.station, cells.bounds
     edge_length = np.diff(station)
-    which = np.clip(np.searchsorted(ends, station, side="left") - 1, 0, len(wire.sections) - 1)
+    moments = np.array([section.moment_per_length for section in wire.sections])
+    curvatures = np.array([section.rest_curvature for section in wire.sections])
     return Mesh(
         station=station,
-        cell_end=cells[1:],
+        cell_end=bounds[1:],
         edge_length=edge_length,
-        stretching_stiffness=edge_length / total(station, lambda s: 1.0 / s.stretching_stiffness),
-        moment=vectors(station, lambda s: s.moment_per_length),
-        axial_inertia=total(
+        stretching_stiffness=edge_length
+        / cells.total(station, lambda s: 1.0 / s.stretching_stiffness),
+        moment=cells.spread(station, moments),
+        axial_inertia=cells.total(
             station, lambda s: 0.5 * s.density * s.area * (s.radius**2 + s.inner_radius**2)
         ),
-        bending_stiffness=1.0 / total(cells, lambda s: 1.0 / s.bending_stiffness),
-        twisting_stiffness=1.0 / total(cells, lambda s: 1.0 / s.twisting_stiffness),
-        rest_turn=vectors(cells, lambda s: s.rest_curvature),
-        mass=total(cells, lambda s: s.density * s.area),
-        volume=total(cells, lambda s: s.area),
-        radius=np.array([wire.sections[i].radius for i in which]),
+        bending_stiffness=1.0 / cells.total(bounds, lambda s: 1.0 / s.bending_stiffness),
+        twisting_stiffness=1.0 / cells.total(bounds, lambda s: 1.0 / s.twisting_stiffness),
+        rest_turn=cells.spread(bounds, curvatures),
+        mass=cells.total(bounds, lambda s: s.density * s.area),
+        volume=cells.total(bounds, lambda s: s.area),
+        radius=np.array([wire.sections[i].radius for i in cells.which]),
     )

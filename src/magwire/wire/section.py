@@ -29,7 +29,7 @@ class Section:
     magnetization
         Remanent magnetisation in the material frame (m1, m2, tangent), shape (3,) [A/m].
     rest_curvature
-        Curvature of the unloaded wire about m1 and about m2, shape (2,) [1/m].
+        Curvature of the unloaded wire towards m1 and towards m2, shape (2,) [1/m].
 
     Raises
     ------

@@ -75,7 +75,7 @@ class Wire:
         magnetization
             Of that part [A/m]: along the axis, or three components (m1, m2, tangent).
         rest_curvature
-            Curvature of the unloaded wire about m1 and m2, shape (2,) [1/m].
+            Curvature of the unloaded wire towards m1 and m2, shape (2,) [1/m].
         """
         tip = nonnegative("Wire", "magnetized_tip", magnetized_tip, "m")
         if tip > length:

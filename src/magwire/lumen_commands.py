@@ -1,0 +1,224 @@
+"""What ``magwire lumen`` does: look into a vessel's file, and write it anew."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from magwire.errors import MagwireError
+from magwire.lumen import Vessel
+from magwire.lumen.files import Drawing, Line, load, netcdf, vtp
+from magwire.lumen.vessel import Spot, survey
+from magwire.lumen.vessel.placement import Placement, guessed_unit
+from magwire.units import DIMENSIONS, parse, show
+
+WRITTEN = (".vtp", ".nc", ".toml")
+MM = 1e3
+
+
+class LumenCommandError(MagwireError):
+    """A command on a vessel's file that cannot be carried out."""
+
+
+def spot(text: str | None, name: str) -> Spot | None:
+    """An end by its name or number, or a point such as "1 mm, 2 mm, 3 mm"."""
+    if text is None:
+        return None
+    parts = text.split(",")
+    if len(parts) == 3:
+        return [parse(part.strip(), "length", name) for part in parts]
+    return int(text) if text.strip().isdecimal() else text
+
+
+def radius_of(text: str | None) -> float | str | None:
+    """One radius such as "2 mm", or the name of an array."""
+    return parse(text, "length", "--radius") if text and text[:1].isdecimal() else text
+
+
+def inspect(
+    path: Path,
+    *,
+    units: str | None,
+    wire: dict[str, str | None],
+    other: Path | None,
+    **options: Any,
+) -> tuple[list[str], Vessel]:
+    """What to know of a vessel's file, a line each, and the vessel.
+
+    Parameters
+    ----------
+    path
+        The file.
+    units
+        Of its numbers; guessed if left out and if the file states none.
+    wire
+        Texts by name: its ``diameter``, its ``modulus`` and the ``force`` that it may take.
+    other
+        A file of the same vessel, to compare axes with.
+    options
+        For ``Vessel.read``.
+    """
+    named = options.get("radius")
+    drawing = load(path, named if isinstance(named, str) else None)
+    stated = drawing.unit in DIMENSIONS["length"].units
+    unit = units or (str(drawing.unit) if stated else guessed_unit(drawing))
+    vessel = Vessel.read(path, unit, **options)
+    lines = [
+        f"{'file':12}{_contents(drawing)}",
+        f"{'units':12}{_unit_words(drawing, units, stated)}",
+        f"{'smoothing':12}{vessel.smoothing:g} radii",
+        "",
+        *_ends(vessel),
+        "",
+        *_table(vessel, wire),
+        *_warnings(vessel, other, unit, options),
+    ]
+    return lines, vessel
+
+
+def convert(vessel: Vessel, target: Spot | None, out: Path, *, force: bool) -> None:
+    """Write a vessel as .vtp in millimetres, as .nc in metres, or as a scenario's table in .toml.
+
+    Parameters
+    ----------
+    vessel
+        The vessel.
+    target
+        Of the scenario's table.
+    out
+        The file to write.
+    force
+        Whether it may be there already.
+    """
+    if out.suffix not in WRITTEN:
+        raise LumenCommandError(
+            f"Output file '{out}' must end in one of {', '.join(WRITTEN)}; received {out.suffix!r}."
+        )
+    if out.exists() and not force:
+        raise LumenCommandError(f"Output file '{out}' exists already; use --force to overwrite it.")
+    lumen = vessel.lumen(target)  # refuses what could not be used
+    factor = MM if out.suffix == ".vtp" else 1.0
+    tubes = vessel.tubes.items()
+    lines = [Line(name, factor * tube.points, factor * tube.radius) for name, tube in tubes]
+    ends = (vessel.entrance, *vessel.tubes)
+    try:
+        if out.suffix == ".vtp":
+            vtp.write(out, lines, ends)
+        elif out.suffix == ".nc":
+            netcdf.write(out, lines, ends)
+        else:
+            out.write_text(_toml(vessel, str(lumen.target)), encoding="utf-8")
+    except OSError as error:
+        reason = (error.strerror or "unknown reason").lower()
+        raise LumenCommandError(f"Output file '{out}' cannot be written: {reason}.") from None
+
+
+def picture(vessel: Vessel, path: Path, wire: str | None) -> None:
+    """Draw a vessel into a file, with a wire of this diameter to compare its radius with."""
+    from magwire.plot import vessels
+
+    tubes = {name: tube.centreline() for name, tube in vessel.tubes.items()}
+    radius = None if wire is None else 0.5 * parse(wire, "length", "--wire")
+    try:
+        vessels.save(tubes, path, radius)
+    except (OSError, ValueError) as error:
+        why = str(error).splitlines()[0].rstrip(".")
+        raise LumenCommandError(f"Picture '{path}' cannot be written: {why}.") from None
+
+
+def _toml(vessel: Vessel, target: str) -> str:
+    import tomli_w
+
+    from magwire.scenario.vessels import rows_of
+
+    table = {"shape": "vessel", "target": target, "branches": rows_of(vessel)}
+    return tomli_w.dumps({"lumen": table})
+
+
+def _contents(drawing: Drawing) -> str:
+    if drawing.surface is not None:
+        count = len(drawing.surface.triangles)
+        return f"a surface of {count} triangles; its centrelines are extracted"
+    count = sum(len(line.points) for line in drawing.lines)
+    return f"{len(drawing.lines)} centrelines with {count} points"
+
+
+def _unit_words(drawing: Drawing, units: str | None, stated: bool) -> str:
+    guess = guessed_unit(drawing)
+    if units is not None:
+        return units + ("" if guess == units else f"; the numbers look like {guess}")
+    if stated:
+        return f"{drawing.unit}, as the file states" + (
+            "" if guess == drawing.unit else f"; the numbers look like {guess}"
+        )
+    return f"not stated; the numbers look like {guess}, which is taken here"
+
+
+def _ends(vessel: Vessel) -> Iterator[str]:
+    yield f"{'':2}{'end':14}{'x, y, z [mm]':>28}"
+    for number, (name, place) in enumerate(vessel.ends.items(), start=1):
+        x, y, z = MM * place
+        note = "  entrance" if name == vessel.entrance else ""
+        yield f"{number:<3}{name:13}{f'{x:.2f}, {y:.2f}, {z:.2f}':>28}{note}"
+
+
+def _table(vessel: Vessel, wire: dict[str, str | None]) -> Iterator[str]:
+    """One row for each outlet; with a wire, whether it gets there."""
+    asked = wire["diameter"] is not None
+    yield (
+        f"{'outlet':14}{'length':>8}{'own':>8}{'radius':>14}{'narrowest at':>14}"
+        f"{'tightest bend':>15}{'at':>7}{'moved by':>10}{'narrowed':>10}"
+        + ("  reachable" if asked else "")
+    )
+    for course in survey.courses(vessel):
+        way = vessel.ways[course.name]
+        low, high = (MM * radius for radius in course.radii)
+        bend = "straight" if math.isinf(course.bend.radius) else f"{MM * course.bend.radius:.2f}"
+        yield (
+            f"{course.name:14}{MM * course.length:8.1f}{MM * course.own:8.1f}"
+            f"{f'{low:.2f} to {high:.2f}':>14}{MM * course.narrowest:14.1f}{bend:>15}"
+            f"{MM * course.bend.arc:7.1f}{MM * way.deviation[0]:10.2f}{MM * way.narrowed:10.2f}"
+            + (f"  {_verdict(course, wire)}" if asked else "")
+        )
+    yield "All in mm. Smoothing moved no point by more than 'moved by', and took at most 'narrowed'"
+    yield "off the radius where the lumen would have been wider than its bend or tapered too fast."
+
+
+def _verdict(course: survey.Course, wire: dict[str, str | None]) -> str:
+    radius = 0.5 * parse(wire["diameter"], "length", "--wire")
+    modulus = wire["modulus"]
+    young = 0.0 if modulus is None else parse(modulus, "pressure", "--youngs-modulus")
+    found = survey.reach(course, radius, young * math.pi * radius**4 / 4.0)
+    if not found.fits:
+        return f"no, {show(course.radii[0] * 2.0, 'length')} wide at the narrowest"
+    if modulus is None:
+        return "yes"
+    needs = f"about {show(found.force, 'force')} to bend it"
+    limit = wire["force"]
+    if limit is not None and found.force > parse(limit, "force", "--max-force"):
+        return f"no, {needs}"
+    return f"yes, {needs}"
+
+
+def _warnings(
+    vessel: Vessel, other: Path | None, unit: str, options: dict[str, Any]
+) -> Iterator[str]:
+    found = [*vessel.notes, *survey.self_contacts(vessel)]
+    if other is not None:
+        drawing = load(other)
+        own = drawing.unit or unit
+        metres = DIMENSIONS["length"].units.get(own, 1.0) * float(options.get("scale", 1.0))
+        flip = survey.flipped_axes(vessel, drawing, Placement(metres))
+        if flip is not None:
+            found.append(f"The axes {flip} of '{other}' point the other way.")
+        else:
+            found.append(f"The axes of '{other}' are the same, as far as can be seen.")
+    try:
+        vessel.lumen()
+    except MagwireError as error:
+        found.append(str(error))
+    if found:
+        yield ""
+        yield from found

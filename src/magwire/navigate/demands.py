@@ -1,0 +1,48 @@
+"""What a field schedule must keep to (P-22, P-23)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from magwire.errors import InputError, positive, within
+
+
+@dataclass(frozen=True)
+class Demands:
+    """What a field schedule must keep to.
+
+    Parameters
+    ----------
+    tip_clearance
+        Of the tip to the wall, as part of the clearance on the centreline, between 0 and 1.
+    stability_margin
+        Smallest eigenvalue of the tangent stiffness against the lumped mass [rad^2/s^2].
+    field_tolerance
+        Part by which the field may be off without harm.
+    max_field
+        Largest flux density [T].
+    max_field_rate
+        Largest change of the flux density per length fed [T/m].
+    """
+
+    tip_clearance: float = 0.4
+    stability_margin: float = 1.0
+    field_tolerance: float = 0.05
+    max_field: float = float("inf")
+    max_field_rate: float = float("inf")
+
+    def __post_init__(self) -> None:
+        within("Demands", "tip_clearance", self.tip_clearance, low=0.0, high=1.0)
+        positive("Demands", "stability_margin", self.stability_margin, "rad^2/s^2")
+        within("Demands", "field_tolerance", self.field_tolerance, low=0.0, high=0.5)
+        for name, unit in (("max_field", "T"), ("max_field_rate", "T/m")):
+            value = getattr(self, name)
+            if not value > 0.0:
+                raise InputError(
+                    f"Input {name} of Demands must be positive; received {value} {unit}."
+                )
+
+    @property
+    def weakening(self) -> float:
+        """The weakest field that there may be, over the planned one."""
+        return 1.0 - self.field_tolerance

@@ -1,0 +1,212 @@
+"""Going from one planned field to the next (P-22).
+
+At every planned feed the field b solves
+
+    min |b|^2 / 2   subject to   |offset(b)| <= room   and   eigenvalue(b) >= margin
+
+by sequential quadratic programming: both constraints are linearised with the sensitivities of the
+equilibrium, and the next programme starts from the equilibrium in the new field.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magwire.navigate.model import Memory, Model, View
+from magwire.navigate.navigator import NavigationError
+from magwire.navigate.programme import OFF_ROOM, Programme
+
+Array = NDArray[np.float64]
+
+PROGRAMMES = 8  # per planned feed, at most
+SETTLED = 5e-3  # they end when the field changes by less than this, in the unit of fields
+TRUST = 0.3  # largest change of a component of the field in one programme, in that unit
+LEAST_TRUST = 2e-3
+HALVINGS = 6
+ROUND_OFF = 1e-4  # a rise of the merit by less does not matter
+MISSED = 0.1  # part of the lumen's radius, or of the margin, by which a constraint may be missed
+SLIP = 0.2  # change of the tip's offset from one feed to the next that is a slip, in that radius
+INERTIA = 0.015  # feed over which the field may follow what is asked for, in the wire's length
+RETRIES = 12  # of a feed at which the wire is lost, each with a larger margin before it
+STIFFER = 1.15  # eigenvalue for a retry, over the one with which the wire was lost
+RELAXING = 0.95  # of that larger margin from one planned feed to the next
+
+
+@dataclass(frozen=True)
+class Knot:
+    """A planned field: the weakest that it may come out as, and what the wire does in that.
+
+    Attributes
+    ----------
+    feed
+        Length of wire inside the lumen [m].
+    memory
+        Takes the model there.
+    view
+        The equilibrium; None before the wire is released.
+    """
+
+    feed: float
+    memory: Memory
+    view: View | None
+
+    @property
+    def flux(self) -> Array:
+        """Weakest flux density, shape (3,) [T]."""
+        return self.memory.flux
+
+
+class Pilot:
+    """Plans field after field.
+
+    Parameters
+    ----------
+    model
+        The wire; it is moved about.
+    programme
+        What the fields must keep to.
+    """
+
+    def __init__(self, model: Model, programme: Programme) -> None:
+        self.model = model
+        self.programme = programme
+        self._length = model.system.wire.length
+        self.forget()
+
+    def forget(self) -> None:
+        """Start afresh: what was learned of the wire before is of no use elsewhere."""
+        self._margin, self._trust = self.programme.demands.stability_margin, TRUST
+
+    def advance(self, last: Knot, feed: float) -> tuple[Knot, Knot]:
+        """Feed the model on from a knot, and find the field there.
+
+        A wire that is lost on the way is made stiffer before.
+
+        Returns
+        -------
+        tuple
+            The last knot, with the field that it takes to get on from there, and the next one.
+
+        Raises
+        ------
+        NavigationError
+            If no field does what is asked for.
+        """
+        model, moved = self.model, abs(feed - last.feed)
+        model.return_to(last.memory)
+        for _ in range(RETRIES):
+            try:
+                view = self._reach(feed, last, moved)
+            except NavigationError as failure:
+                lost = failure
+            else:
+                demanded = self.programme.demands.stability_margin
+                self._margin = max(demanded, RELAXING * self._margin)
+                return last, Knot(feed, model.remember(), view)
+            if last.view is None:
+                break
+            self._margin = max(2.0 * self._margin, STIFFER * last.view.eigenvalue)
+            model.return_to(last.memory)
+            view = self._improve(last.view, last.flux, moved)
+            last = Knot(last.feed, model.remember(), view)
+        self.forget()
+        raise lost
+
+    def _reach(self, feed: float, last: Knot, moved: float) -> View | None:
+        """Feed the model on and find the field there; the view there, if there is anything."""
+        model, seen = self.model, last.view
+        where = f"At {feed * 1e3:.4g} mm of feed"
+        if not model.feed_to(feed):
+            raise NavigationError(
+                f"{where} the navigator's model of the wire found no equilibrium; try a smaller "
+                "plan_every."
+            )
+        if not model.released:
+            return None
+        view = model.look()
+        if view is None:
+            raise NavigationError(
+                f"{where} the wire becomes unstable before the field can follow; try a smaller "
+                "plan_every or a larger stability_margin."
+            )
+        slip = SLIP * view.radius
+        if seen is None or view.distance <= max(
+            OFF_ROOM * self.programme.room(view) + slip, seen.distance + slip
+        ):
+            view = self._improve(view, last.flux, moved)
+        self._judge(view, where)
+        return view
+
+    def _improve(self, view: View, before: Array, moved: float) -> View:
+        """Change the field until no programme makes it better."""
+        unit, stiffness = self.programme.unit, INERTIA * self._length / moved
+        demands = self.programme.demands
+        largest = demands.max_field_rate * moved * demands.weakening
+        for _ in range(PROGRAMMES):
+            bounds = self._trust * unit * np.array([[-1.0] * 3, [1.0] * 3])
+            if np.isfinite(largest):
+                bounds[0] = np.maximum(bounds[0], before - largest - view.flux)
+                highest = np.minimum(bounds[1], before + largest - view.flux)
+                bounds[1] = np.maximum(bounds[0], highest)
+            change = self.programme.change(view, before, stiffness, self._margin, bounds)
+            if change is None:
+                raise NavigationError(
+                    f"At {self.model.feed * 1e3:.4g} mm of feed the quadratic programme for the "
+                    "field has no solution."
+                )
+            view, part = self._try(change, view, before, stiffness)
+            wider = 2.0 if part == 1.0 else 1.5 * part
+            self._trust = min(TRUST, max(LEAST_TRUST, wider * self._trust))
+            if part > 0.0 and norm(change) < SETTLED * unit:
+                break
+        return view
+
+    def _try(
+        self, change: Array, view: View, before: Array, stiffness: float
+    ) -> tuple[View, float]:
+        """Go to the changed field, or the part of the way that makes things better."""
+        model, programme = self.model, self.programme
+        merit = programme.merit(view, before, stiffness, self._margin)
+        start, part = model.remember(), 1.0
+        for _ in range(HALVINGS):
+            if model.settle(start.flux + part * change):
+                there = model.look()
+                if there is not None:
+                    new = programme.merit(there, before, stiffness, self._margin)
+                    if new <= merit + ROUND_OFF:
+                        return there, part
+                model.return_to(start)
+            part *= 0.5
+        return view, 0.0
+
+    def _judge(self, view: View, where: str) -> None:
+        """Raise if the field found does not do what is asked for."""
+        programme = self.programme
+        demands = programme.demands
+        weak = demands.weakening
+        flux, room = norm(view.flux) / weak, programme.room(view)
+        planned = norm(view.offset + (1.0 / weak - 1.0) * (view.offset_by_flux @ view.flux))
+        missed = MISSED * view.radius
+        if planned > room + missed or view.distance > OFF_ROOM * room + missed:
+            raise NavigationError(
+                f"{where} no stable field was found that keeps the tip within {room * 1e3:.3g} mm "
+                f"of the centreline; with {flux * 1e3:.3g} mT it is {planned * 1e3:.3g} mm away."
+            )
+        if view.eigenvalue < (1.0 - MISSED) * demands.stability_margin:
+            raise NavigationError(
+                f"{where} the equilibrium's stability is {view.eigenvalue:.3g} rad^2/s^2 at best; "
+                f"the margin asked for is {demands.stability_margin:.3g} rad^2/s^2."
+            )
+        if flux > demands.max_field * (1.0 + 1e-3):
+            raise NavigationError(
+                f"{where} the tip needs {flux * 1e3:.3g} mT; the limit is "
+                f"{demands.max_field * 1e3:.3g} mT."
+            )
+
+
+def norm(vector: Array) -> float:
+    """Length of a vector."""
+    return float(np.linalg.norm(vector))

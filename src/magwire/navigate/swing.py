@@ -1,0 +1,220 @@
+"""Ways to swing the wire onto the wall, where it can no longer swing (P-22).
+
+Past a quarter turn a wire that only the guide touches is held against swinging by the field alone,
+and the field for that grows without bound as the tip turns by 180 degrees. A wire whose body rests
+on the wall needs much less. Between the two there is no path of stable equilibria in a moderate
+field: the wire has to swing. What is looked for here is a place from which it does so, into a given
+field a little farther on, with its tip within bounds all the way.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magwire.navigate.model import Model, View
+from magwire.navigate.pilot import Knot, norm
+from magwire.navigate.programme import Programme
+from magwire.navigate.schedule import Schedule
+
+Array = NDArray[np.float64]
+
+SPACING = 0.12  # between the places that the tip is sent to, in the lumen's radius
+MARGINAL = 1.15  # room for these places, over the room for the tip
+BOUND = 0.8  # of the tip's offset while the wire swings, in the lumen's radius
+OFF = 0.6  # part of the field's tolerance that is asked for while the wire swings
+SUPPORT = 20.0  # eigenvalue above which the wall must be holding the wire, in stability margins
+STRENGTHS = (1.0, 1.2, 1.4)  # of the field in which it arrives, over the one that would do
+ROUND = 1e-9  # round-off of feeds [m]
+SPARSE = 0.02  # feed between the fields that a course must also be able to do with, in that length
+LENGTH = 0.02  # of feed for the swing, in the wire's length
+LEAD = 0.04  # of feed for the way to its start
+STEP = 0.02  # time step of a trial [s]
+PROGRAMMES = 12  # for one place, at most
+TRUST = 0.3  # largest change of a component of the field in one programme, in the unit of fields
+HALVINGS = 6
+DETOUR = 1.5  # field of a place on the way to others, over the largest that a swing may need
+GAIN = 0.005  # part by which the field must be less to be worth another try
+CLOSE = 0.05  # to a place, in the lumen's radius
+
+
+class Swings:
+    """Looks for swings.
+
+    Parameters
+    ----------
+    model
+        The wire; it is moved about.
+    programme
+        What the fields must keep to.
+
+    Attributes
+    ----------
+    speed
+        With which the wire is fed while it swings [m/s].
+    """
+
+    def __init__(self, model: Model, programme: Programme) -> None:
+        self.model = model
+        self.programme = programme
+        self._length = model.system.wire.length
+        self.speed = 0.01 * self._length
+
+    def find(self, free: Sequence[Knot], held: Sequence[Knot], highest: float) -> list[Knot] | None:
+        """The course with the least field that begins with the wire free and ends with it held.
+
+        Parameters
+        ----------
+        free, held
+            Courses of a wire that the wall does not hold, and of one that it does, by rising feed.
+        highest
+            Flux density [T] that the course must stay below.
+        """
+        courses: list[tuple[float, list[Knot]]] = []
+        for k in range(len(held)):
+            courses += self._onto(free, held[k:], highest)
+        courses.sort(key=lambda course: course[0])
+        found = next((course for _, course in courses if self._holds(course)), None)
+        return None if found is None else self._refined(found)
+
+    def _refined(self, course: list[Knot]) -> list[Knot]:
+        """The course with its start moved to where less field will do."""
+        for spacing in (0.5 * SPACING, 0.25 * SPACING):
+            better: list[Knot] | None = course
+            while better is not None:
+                course = better
+                better = next((c for c in self._near(course, spacing) if self._holds(c)), None)
+        return course
+
+    def _near(self, course: list[Knot], spacing: float) -> Iterator[list[Knot]]:
+        """Courses that start a little beside, in less field."""
+        start = course[-3]
+        assert start.view is not None
+        size, axes = start.view.radius, start.view.axes
+        for angle in np.linspace(0.0, 2.0 * np.pi, 8, endpoint=False):
+            aside = spacing * size * np.array([np.cos(angle), np.sin(angle)])
+            place = self._send(start, (start.view.offset + aside) @ axes, norm(start.flux))
+            if place is not None and norm(place.flux) < (1.0 - GAIN) * norm(start.flux):
+                yield [*course[:-3], place, *course[-2:]]
+
+    def _onto(
+        self, free: Sequence[Knot], held: Sequence[Knot], highest: float
+    ) -> list[tuple[float, list[Knot]]]:
+        """Largest field, and course, of the ways onto the first of the held knots."""
+        landing, length = held[0], self._length
+        starts = [k for k in free if k.feed <= landing.feed - LENGTH * length + ROUND]
+        leads = [k for k in starts if k.feed <= starts[-1].feed - LEAD * length + ROUND]
+        if not leads or leads[-1].view is None:
+            return []
+        places = [p for p in self._places(starts[-1], highest) if not self.is_held(p.view)]
+        rest = [k for k in held if k.feed >= landing.feed + LENGTH * length - ROUND][:1]
+        found = []
+        for strength in STRENGTHS:
+            firm = Knot(
+                landing.feed, replace(landing.memory, flux=strength * landing.flux), landing.view
+            )
+            for place in places:
+                largest = max(norm(knot.flux) for knot in (place, firm, *rest))
+                if largest <= highest:
+                    found.append((largest, [*leads, place, firm, *rest]))
+        return found
+
+    def is_held(self, view: View | None) -> bool:
+        """Whether more than the field holds the wire: the wall, or the guide."""
+        return view is None or view.eigenvalue > SUPPORT * self.programme.demands.stability_margin
+
+    def _holds(self, course: Sequence[Knot]) -> bool:
+        """Whether the wire goes along a course, and ends held, in all fields that may come."""
+        weak = self.programme.demands.weakening
+        plan = Schedule.along([(knot.feed, knot.flux / weak) for knot in course])
+        sparse = plan.resampled(SPARSE * self._length)
+        off = OFF * (1.0 - weak)
+        trials = (plan.scaled(1.0 - off), sparse, plan, plan.scaled(1.0 + off))
+        return self._follows(course[-3], trials[0]) and all(
+            self._follows(course[-4], trial) for trial in trials
+        )
+
+    def _follows(self, start: Knot, plan: Schedule) -> bool:
+        """Whether the tip stays within bounds along a schedule, and the wire ends held."""
+        model = self.model
+        model.return_to(start.memory)
+        if not model.settle(plan.at(start.feed)[0]):
+            return False
+        if any(part > BOUND for part in model.play(plan, self.speed, STEP)):
+            return False
+        view = model.look() if model.settle(plan.flux_density[-1]) else None
+        return view is not None and self.is_held(view)
+
+    def _places(self, knot: Knot, highest: float) -> list[Knot]:
+        """Equilibria with the tip all over its room, in the least stable fields.
+
+        They are reached one from the other, beginning at a knot, in steps across the lumen.
+        """
+        view = knot.view
+        if view is None:
+            return []
+        size, axes = view.radius, view.axes
+        room = MARGINAL * self.programme.room(view)
+        first = np.round(view.offset / (SPACING * size)).astype(int)
+        seen, found = {tuple(first), *neighbours(tuple(first))}, []
+        waiting = deque((cell, knot) for cell in sorted(seen))
+        while waiting:
+            cell, origin = waiting.popleft()
+            place = self._send(origin, SPACING * size * np.array(cell) @ axes, highest)
+            if place is None:
+                continue
+            found.append(place)
+            for near in neighbours(cell):
+                if near not in seen and SPACING * size * norm(np.array(near)) <= room:
+                    seen.add(near)
+                    waiting.append((near, place))
+        return found
+
+    def _send(self, knot: Knot, target: Array, highest: float) -> Knot | None:
+        """The equilibrium with the tip at an offset in space, shape (3,) [m], from a knot."""
+        model, programme = self.model, self.programme
+        margin = programme.demands.stability_margin
+        bounds = TRUST * programme.unit * np.array([[-1.0] * 3, [1.0] * 3])
+        model.return_to(knot.memory)
+        view = knot.view
+        assert view is not None
+        for _ in range(PROGRAMMES):
+            change = programme.aim(view, view.axes @ target, margin, bounds)
+            if change is None:
+                return None
+            there = self._go(view, change)
+            if there is None or norm(model.flux) > DETOUR * highest:
+                return None
+            settled = norm(there.flux - view.flux) < 2e-3 * programme.unit
+            view = there
+            if settled:
+                break
+        missed = float(np.linalg.norm(view.axes @ target - view.offset))
+        fits = missed <= CLOSE * view.radius and view.eigenvalue >= 0.9 * margin
+        if not fits:
+            return None
+        return Knot(knot.feed, model.remember(), view)
+
+    def _go(self, view: View, change: Array) -> View | None:
+        """Change the field, or as much of it as keeps the wire stable."""
+        model = self.model
+        start = model.remember()
+        least = min(0.4 * self.programme.demands.stability_margin, 0.9 * view.eigenvalue)
+        for _ in range(HALVINGS):
+            if model.settle(start.flux + change):
+                there = model.look()
+                if there is not None and there.eigenvalue > least:
+                    return there
+                model.return_to(start)
+            change = 0.5 * change
+        return None
+
+
+def neighbours(cell: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
+    """The four cells around a cell of a grid."""
+    i, j = cell
+    yield from ((i + 1, j), (i - 1, j), (i, j + 1), (i, j - 1))

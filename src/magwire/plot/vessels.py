@@ -1,0 +1,94 @@
+"""The picture of a vessel: its tubes in space, and the radius along the way to each outlet."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from magwire.plot import shapes, style
+
+Array = NDArray[np.float64]
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#22303c")
+HEIGHT = 92.0
+"""Height of the figure [mm]."""
+
+
+def draw(tubes: Mapping[str, tuple[Array, Array]], wire: float | None = None) -> Figure:
+    """Draw the tubes of a vessel.
+
+    Parameters
+    ----------
+    tubes
+        Points, shape (n, 3), and radius, shape (n,), of the way to each outlet by its name [m].
+    wire
+        Radius of a wire to compare with [m].
+
+    Returns
+    -------
+    Figure
+        Two columns wide (180 mm).
+    """
+    with mpl.rc_context(style.RC):
+        figure = Figure(figsize=(style.WIDTH * style.MM, HEIGHT * style.MM))
+        FigureCanvasAgg(figure)
+        draw_into(figure, tubes, wire)
+    return figure
+
+
+def draw_into(
+    figure: Figure, tubes: Mapping[str, tuple[Array, Array]], wire: float | None = None
+) -> None:
+    """Draw the tubes of a vessel into an empty figure; what they are is said in ``draw``."""
+    with mpl.rc_context(style.RC):
+        figure.set_layout_engine("constrained")
+        halves: Any = figure.subfigures(1, 2, width_ratios=(1.0, 1.0))
+        parts = [shapes.Branch(1e3 * p, 1e3 * r) for p, r in tubes.values()]
+        _draw_tubes(halves[0].add_subplot(projection="3d", computed_zorder=False), parts, tubes)
+        axes = halves[1].subplots()
+        for i, (name, part) in enumerate(zip(tubes, parts, strict=True)):
+            steps = np.linalg.norm(np.diff(part.points, axis=0), axis=1)
+            arc = np.concatenate([[0.0], np.cumsum(steps)])
+            axes.plot(arc, part.radius, color=COLOURS[i % len(COLOURS)], label=name)
+        if wire is not None:
+            axes.axhline(1e3 * wire, color=style.INK, linestyle="--", linewidth=0.8, label="wire")
+        axes.set(xlabel="arc length from the entrance [mm]", ylabel="radius [mm]")
+        axes.set_ylim(bottom=0.0)
+        axes.legend()
+
+
+def save(
+    tubes: Mapping[str, tuple[Array, Array]], path: str | Path, wire: float | None = None
+) -> None:
+    """Draw the tubes of a vessel into a file; the parameters are those of ``draw``."""
+    figure = draw(tubes, wire)
+    with mpl.rc_context(style.RC):
+        figure.savefig(path)
+
+
+def _draw_tubes(axes: Any, parts: list[shapes.Branch], names: Mapping[str, Any]) -> None:
+    low = np.min([np.min(p.points - p.radius[:, None], axis=0) for p in parts], axis=0)
+    high = np.max([np.max(p.points + p.radius[:, None], axis=0) for p in parts], axis=0)
+    for i, (name, part) in enumerate(zip(names, parts, strict=True)):
+        colour = COLOURS[i % len(COLOURS)]
+        start = shapes.leaves(part, parts[:i])
+        own = shapes.Branch(part.points[start:], part.radius[start:])
+        x, y, z = shapes.tube(own)
+        axes.plot_surface(
+            x, y, z, color=colour, alpha=0.22, linewidth=0.0, shade=False, rstride=1, cstride=1,
+            antialiased=True, rasterized=True,
+        )  # fmt: skip
+        axes.plot(*own.points.T, color=colour, linewidth=0.9)
+        axes.text(*own.points[-1], f" {name}", color=colour, fontsize=6.5)
+    axes.plot(*parts[0].points[:1].T, "o", color=style.INK, markersize=3.5)
+    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
+    axes.set_box_aspect(high - low)
+    elevation, azimuth = shapes.view(parts)
+    axes.view_init(elev=elevation, azim=azimuth)
+    shapes.dress(axes)

@@ -1,0 +1,1 @@
+"""The paper's Results, figure by figure and claim by claim (``magwire reproduce``)."""

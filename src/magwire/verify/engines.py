@@ -1,0 +1,169 @@
+"""Group 8: another engine, MuJoCo's elastic rod, side by side in one run."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magwire.contact import Barrier
+from magwire.engine.sampling import sample
+from magwire.field import UniformField
+from magwire.kernels.march import Plan, Tally, march
+from magwire.lumen import Lumen
+from magwire.simulation import Simulation
+from magwire.verify import mujoco_rod
+from magwire.verify.evidence import NODES, Curve, Line, Skipped
+from magwire.wire import Wire
+
+Array = NDArray[np.float64]
+GROUP = "engines"
+OLDEST = 4
+L, RADIUS, BEND, TUBE = 0.1, 0.6e-3, 0.025, 3.6e-3
+MATERIAL = {"youngs_modulus": 3e6, "shear_modulus": 1e6, "density": 2000.0}
+
+
+def evidence(full: bool) -> Iterator[Line | Curve | Skipped]:
+    """Lines and curves of the group; the push takes MuJoCo long, so only if ``full``."""
+    missing = _missing()
+    if missing:
+        for case in ("magnetic cantilever", "half-circle push"):
+            yield Skipped(GROUP, case, missing)
+        return
+    for b, degrees in ((3.0, 90.0), (8.0, 90.0), (3.0, 135.0)) if full else ((3.0, 90.0),):
+        yield from _cantilever(b, degrees)
+    if full:
+        for feed in (0.3, 0.5):
+            yield from _push(feed)
+
+
+def _missing() -> str:
+    """Why there is nothing to compare with; empty if there is."""
+    try:
+        found = version("mujoco")
+    except PackageNotFoundError:
+        return "MuJoCo is not installed; pip install 'magwire[bench]' does it."
+    if int(found.split(".")[0]) < OLDEST:
+        return f"MuJoCo {found} has no such rod; version {OLDEST} or later is needed."
+    return ""
+
+
+def _wire(length: float, nodes: int) -> Wire:
+    stuff: dict[str, Any] = {**MATERIAL, "magnetized_tip": length, "magnetization": 20e3}
+    return Wire.uniform(length=length, radius=RADIUS, nodes=nodes, **stuff)
+
+
+def _cantilever(b: float, degrees: float) -> Iterator[Line | Curve]:
+    """A wire magnetised all along, let go straight in a field: 6 s of 10 ms, damped."""
+    step, duration = 0.01, 6.0
+    wire = _wire(L, NODES)
+    size = b * wire.bending_stiffness / (wire.moment_per_length * L**2)
+    flux = size * np.array([np.cos(np.radians(degrees)), np.sin(np.radians(degrees)), 0.0])
+    theirs = []
+    for nodes in (26, 51):
+        rod = mujoco_rod.Rod(length=L, nodes=nodes, radius=RADIUS, **MATERIAL)
+        couple = (wire.moment_per_length * rod.edge, flux)
+        theirs.append(mujoco_rod.settle(rod.model(step), duration, couple=couple))
+    edges = np.array([26, 51]) - 1.5
+    weight = 1.0 / (1.0 - (edges[0] / edges[1]) ** 2)
+    limit = weight * theirs[1].nodes[-1] + (1.0 - weight) * theirs[0].nodes[-1]
+    ours, seconds = _settle(_wire(L, 51), flux, step, duration)
+    source = (
+        f"MuJoCo {version('mujoco')}, 26 and 51 nodes extrapolated; with 51 nodes a step takes "
+        f"{theirs[1].step_seconds * 1e6:.0f} µs, magwire's {seconds * 1e6:.0f} µs: "
+        f"{theirs[1].step_seconds / seconds:.1f} times as long"
+    )
+    tip = Simulation(wire, Lumen.open_space()).equilibrium(L, flux).tip / L
+    case = f"magnetic cantilever, field at {degrees:g}°, b = {b:g}"
+    for i, axis in enumerate("xy"):
+        yield Line(
+            GROUP, case, f"tip {axis}", "L", float(limit[i] / L), source, float(tip[i]), 1e-3
+        )  # fmt: skip
+    yield Line(
+        GROUP, f"{case}, after {duration:g} s", "tip at rest, 51 nodes each", "L", 0.0, source,
+        float(np.linalg.norm(theirs[1].nodes[-1] - ours)) / L, 1e-3,
+    )  # fmt: skip
+    yield _shapes(case, theirs[1].nodes, Simulation(wire, Lumen.open_space()), flux, L)
+
+
+def _settle(wire: Wire, flux: Array, step: float, duration: float) -> tuple[Array, float]:
+    """Tip [m] of a straight wire after a time in a field, and the time that a step took [s]."""
+    sim = Simulation(wire, Lumen.open_space(), damping=mujoco_rod.DAMPING)
+    system, rest = sim.system, sim.equilibrium(L)
+    state, mouth = rest.point.state, rest.point.mouth
+    source = UniformField((float(flux[0]), float(flux[1]), float(flux[2])))
+    model = (system.rod, sample(system, source, state), system.new_wall(), system.walls)
+    steps = round(duration / step)
+    feed, twist = np.ones(steps + 1), np.zeros(steps + 1)
+    plan = Plan(feed, twist, step, system.damping, True)
+    velocity, work = np.zeros_like(state.q), system.new_work()
+    tally = Tally(np.zeros(4), np.zeros(3))
+    clock = time.perf_counter()
+    for first, last in ((0, 1), (1, steps)):  # the first step may have to read compiled code
+        if first == 1:
+            clock = time.perf_counter()
+        march(
+            model, system.guide, state, velocity, work, system.step_limits(), plan, first, last,
+            mouth.held, tally,
+        )  # fmt: skip
+    seconds = (time.perf_counter() - clock) / (steps - 1)
+    if tally.counts[0] != steps:
+        raise RuntimeError("magwire's cantilever did not come to its last step.")
+    return state.q[-1, :3] * L, seconds
+
+
+def _push(feed: float) -> Iterator[Line | Curve]:
+    """A wire pressed into the paper's half-circle, its surface against the wall.
+
+    MuJoCo's wire lies in a channel with facets of half a degree and stays in the plane.
+    """
+    length, nodes, step, duration = feed * L, 26, 3e-4, 3.0
+    rod = mujoco_rod.Rod(length=length, nodes=nodes, radius=RADIUS, **MATERIAL)
+    model = rod.model(step, flat=True, walls=mujoco_rod.half_circle_walls(BEND, TUBE, 360))
+    x = rod.start[:, 0]
+    angle = np.clip(x, 0.0, None) / BEND
+    begin = rod.start
+    begin[:, 0] = np.where(x > 0.0, BEND * np.sin(angle), x)
+    begin[:, 1] = BEND * (1.0 - np.cos(angle))
+    theirs = mujoco_rod.settle(model, duration, begin=begin)
+    wire = _wire(L, NODES)
+    sim = Simulation(wire, Lumen.half_circle(BEND, TUBE), contact=Barrier(1e3, 0.02e-3))
+    sim.equilibrium(length)  # reads compiled code
+    clock = time.perf_counter()
+    ours = sim.equilibrium(length)
+    seconds = time.perf_counter() - clock
+    source = (
+        f"MuJoCo {version('mujoco')}, {nodes} nodes, at rest after {theirs.steps} steps of "
+        f"{theirs.step_seconds * 1e6:.0f} µs; magwire's equilibrium takes {seconds * 1e3:.0f} ms"
+    )
+    case = f"pressed {feed:g} L into the half-circle"
+    for i, axis in enumerate("xy"):
+        yield Line(
+            GROUP, case, f"tip {axis}", "L", float(theirs.nodes[-1, i] / L), source,
+            float(ours.tip[i] / L), 1e-3,
+        )  # fmt: skip
+    force = sim.system.scales.force
+    yield Line(
+        GROUP, case, "sum of wall forces", "EI/L²", theirs.wall_force / force, source,
+        float(np.linalg.norm(ours.wall_force, axis=1).sum()) / force, 0.05, relative=True,
+    )  # fmt: skip
+    yield _shapes(case, theirs.nodes, sim, np.zeros(3), length)
+
+
+def _shapes(case: str, theirs: Array, sim: Simulation, flux: Array, feed: float) -> Curve:
+    ours = sim.equilibrium(feed, flux).positions[:: max(1, NODES // 40)]
+    inside = ours[ours[:, 0] > -0.05 * L]
+    return Curve(
+        case[:1].upper() + case[1:],
+        "x [L]",
+        "y [L]",
+        {
+            "MuJoCo": (theirs[:, 0] / L, theirs[:, 1] / L, "line"),
+            "magwire": (inside[:, 0] / L, inside[:, 1] / L, "points"),
+        },
+        equal=True,
+    )

@@ -1,0 +1,92 @@
+"""A wire that is let go: time steps from an equilibrium in another field, and their balances."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magwire.engine.point import Point
+from magwire.engine.sampling import sample
+from magwire.engine.statics import Equilibrium
+from magwire.field import FieldSource
+from magwire.kernels.arrays import Work
+from magwire.kernels.march import Plan, Tally, march
+from magwire.kernels.newton import CONVERGED, copy_state
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Swing:
+    """What a wire did, step by step.
+
+    Attributes
+    ----------
+    time
+        Shape (steps + 1,) [s].
+    positions, velocities
+        Shape (steps + 1, nodes, 3) [m, m/s].
+    energy
+        Kinetic and potential energy, shape (steps + 1,) [J].
+    guide_force
+        Force of the guide on the free nodes, shape (steps + 1, 3) [N].
+    held
+        Number of nodes on the guide.
+    """
+
+    time: Array
+    positions: Array
+    velocities: Array
+    energy: Array
+    guide_force: Array
+    held: int
+
+
+def let_go(start: Equilibrium, source: FieldSource, time_step: float, steps: int) -> Swing:
+    """Implicit Euler steps from an equilibrium at rest, in a field that is affine.
+
+    The damping is that of the equilibrium's own simulation.
+    """
+    system, mouth = start.point.system, start.point.mouth
+    state = system.new_state()
+    copy_state(start.point.state, state, 1)
+    state.q[0], state.director[0] = start.point.state.q[0], start.point.state.director[0]
+    feed = start.feed / system.wire.length
+    point = Point(system, sample(system, source, state), state, mouth)
+    model = (system.rod, point.field, system.new_wall(), system.walls)
+    plan = Plan(np.full(2, feed), np.full(2, start.twist), time_step, system.damping, True)
+    limits = system.step_limits()._replace(tolerance=1e-8, step=0.0)
+    velocity, work = np.zeros_like(state.q), system.new_work()
+    spare = system.new_work()
+    rows = [_row(point, velocity, spare)]
+    for _ in range(steps):
+        tally = Tally(np.zeros(4), np.zeros(3))
+        _, _, status = march(
+            model, system.guide, state, velocity, work, limits, plan, 0, 1, mouth.held, tally
+        )
+        if status != CONVERGED or tally.counts[3] > 0:
+            raise RuntimeError("A time step did not converge, or not in one piece.")
+        rows.append(_row(point, velocity, spare))
+    columns: list[Array] = [np.array(column) for column in zip(*rows, strict=True)]
+    time = time_step * np.arange(0.0, steps + 1.0)
+    positions, velocities, energy, force = columns
+    return Swing(time, positions, velocities, energy, force, mouth.held)
+
+
+def _row(point: Point, velocity: Array, work: Work) -> tuple[Array, Array, float, Array]:
+    """Positions, velocities, energy and the guide's force at one time, in SI."""
+    system, held = point.system, point.mouth.held
+    length, force = system.wire.length, system.scales.force
+    mass, inertia = system.mesh.mass[held:], system.mesh.axial_inertia[held - 1 :]
+    speed = velocity[1:, :3] * length
+    kinetic = 0.5 * float(mass @ (speed[held:] ** 2).sum(axis=1))
+    kinetic += 0.5 * float(inertia @ velocity[held:-1, 3] ** 2)
+    energy, gradient = point.energy(work)
+    return (
+        point.state.q[1:, :3] * length,
+        speed,
+        kinetic + energy * force * length,
+        gradient[: held + 1, :3].sum(axis=0) * force,
+    )
