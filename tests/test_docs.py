@@ -68,9 +68,7 @@ def test_theory_pages_are_in_the_contents() -> None:
 PAGES_WITH_COMMANDS = (
     "README.md",
     "CONTRIBUTING.md",
-    "docs/tutorial.md",
-    "docs/index.md",
-    "docs/reproduce.md",
+    *(f"docs/{name}.md" for name in ("tutorial", "index", "many", "benchmarks", "reproduce")),
 )
 
 
