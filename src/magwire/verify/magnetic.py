@@ -222,13 +222,17 @@ def _uneven() -> dict[str, FieldSource]:
     unit = free(magnet()).system.scales.flux_density
     slope = unit / L * np.array([[1.0, 2.0, -1.5], [2.0, 1.5, 1.0], [-1.5, 1.0, -2.5]])
     rows = tuple(tuple(row) for row in slope.tolist())
-    axis = 1e7 * unit * L**3 * np.array([0.3, -1.0, 0.6])  # mu_0/(4 pi) is 1e-7
+    size = 1e7 * unit * L**3  # mu_0/(4 pi) is 1e-7
+    axis = size * np.array([0.3, -1.0, 0.6])
     fields: dict[str, FieldSource] = {
-        "gradient field": GradientField((0.5 * unit, unit, 0.0), rows)  # type: ignore[arg-type]
+        "gradient field": GradientField((0.5 * unit, unit, 0.0), rows),  # type: ignore[arg-type]
+        "point dipole at (0.5, 0.33, 0) L that bends the wire by L/3": Dipole(
+            np.array([0.5, 0.33, 0.0]) * L, size * np.array([0.4, 0.0, 0.0])
+        ),
     }
-    for x, y, z, size in ((0.7, 0.6, -0.4, 0.4), (1.0, 0.6, 0.4, 0.2)):
+    for x, y, z, part in ((0.7, 0.6, -0.4, 0.4), (1.0, 0.6, 0.4, 0.2)):
         name = f"point dipole at ({x:g}, {y:g}, {z:g}) L"
-        fields[name] = Dipole(np.array([x, y, z]) * L, size * axis)
+        fields[name] = Dipole(np.array([x, y, z]) * L, part * axis)
     return fields
 
 
