@@ -9,7 +9,7 @@ import os
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 os.environ["MPLBACKEND"] = "agg"  # tests draw without a screen, in subprocesses too
 
-from hypothesis import settings  # noqa: E402
+from hypothesis import settings
 
 # The first call of a kernel may compile it, which takes longer than any deadline for one example.
 settings.register_profile("magwire", deadline=None)
