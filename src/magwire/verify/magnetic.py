@@ -279,7 +279,7 @@ def _compare_in_space(
             s = np.linspace(0.0, 1.0, points)
             series[name] = (s, exact.place[:, k], "line")
             series[f"magwire, {name}"] = (s[::12], state.positions[::6, k] / L, "points")
-        yield Curve(f"Wire {case}", "s / L", "place / L", series)
+        yield Curve("Bent and twisted in space, the last b of those", "s / L", "place / L", series)
 
 
 def _darboux(wire: Wire) -> Array:
