@@ -77,8 +77,9 @@ def settle(system: System, source: FieldSource, state: State, mouth: Mouth, work
             continue
         used, samples = samples, sample(system, source, state)
         off = mismatch(system, used, samples, held)
-        if max(off, pull * float(np.abs(weight * way).max())) <= limits.tolerance:
-            return Settled(samples, "", iterations, residual)
+        left = pull * float(np.abs(weight * way).max())
+        if max(off, left) <= limits.tolerance:
+            return Settled(samples, "", iterations, residual + left)
         pull = _next(pull, limits, way, before)
         before = way
     return Settled(samples, REFUSED, iterations, residual)
