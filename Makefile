@@ -5,7 +5,7 @@
 #   make test    run the tests
 #   make lint    format check, lint, types, layers
 #   make docs    build the documentation into docs/_build/html
-#   make bench   print the table of times and counts
+#   make bench   measure times, counts and ratios on this machine
 #   make format  put the sources into the project's format
 #   make clean   remove everything that was made, .venv included
 
@@ -38,8 +38,8 @@ docs: $(VENV)/.docs
 	$(BIN)/python -m sphinx -W --keep-going -b html docs docs/_build/html
 	@echo "The documentation starts at docs/_build/html/index.html."
 
-bench: $(VENV)/.dev
-	@$(BIN)/python benchmarks/run.py
+bench: $(VENV)/.run
+	@$(BIN)/magwire bench
 
 format: $(VENV)/.dev
 	$(BIN)/ruff format .

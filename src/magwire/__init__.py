@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from magwire.field import UniformField as UniformField
     from magwire.lumen import Lumen as Lumen
     from magwire.lumen import Vessel as Vessel
+    from magwire.many import Outcome as Outcome
+    from magwire.many import run_many as run_many
     from magwire.navigate import Prescribed as Prescribed
     from magwire.navigate import Schedule as Schedule
     from magwire.navigate.demands import Demands as Demands
@@ -47,6 +49,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "InputError": ("magwire.errors", "InputError"),
     "Lumen": ("magwire.lumen", "Lumen"),
     "MagwireError": ("magwire.errors", "MagwireError"),
+    "Outcome": ("magwire.many", "Outcome"),
     "Prescribed": ("magwire.navigate", "Prescribed"),
     "Result": ("magwire.results", "Result"),
     "ResultError": ("magwire.errors", "ResultError"),
@@ -61,6 +64,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Vessel": ("magwire.lumen", "Vessel"),
     "Wire": ("magwire.wire", "Wire"),
     "load_scenario": ("magwire.scenario", "load"),
+    "run_many": ("magwire.many", "run_many"),
     "scenario_names": ("magwire.scenario", "names"),
 }
 
@@ -74,6 +78,7 @@ __all__ = [
     "InputError",
     "Lumen",
     "MagwireError",
+    "Outcome",
     "Prescribed",
     "Result",
     "ResultError",
@@ -89,6 +94,7 @@ __all__ = [
     "Wire",
     "__version__",
     "load_scenario",
+    "run_many",
     "scenario_names",
 ]
 

@@ -213,6 +213,122 @@ def replay(
 
 
 @app.command
+def sweep(
+    file: Path,
+    /,
+    *,
+    workers: int | None = None,
+    out: Folder = None,
+    keep: Annotated[bool, Parameter(negative="")] = False,
+    cluster: str | None = None,
+    force: Force = False,
+) -> int:
+    """Run a scenario for many values of its keys: one table, and a figure.
+
+    Parameters
+    ----------
+    file
+        TOML file with a table [sweep], which says what varies.
+    workers
+        Processes, one on each core; one for each core if left out.
+    out
+        Folder for the output; NAME-sweep in the working folder if left out. A sweep that was
+        interrupted there is taken up again.
+    keep
+        Keep the result file of each run.
+    cluster
+        Address of a Dask scheduler, such as tcp://10.0.0.1:8786, or local.
+    force
+        Overwrite what is there.
+    """
+    from magwire.errors import whole
+    from magwire.many import sweep as sweeps
+    from magwire.many import sweeping
+    from magwire.many.runs import cores
+
+    count = whole("sweep", "workers", cores() if workers is None else workers, minimum=1)
+    described = sweeps.read(file)
+    runs = len(described.scenarios)  # all faults of the file before anything is written
+    folder = out or Path(f"{file.stem}-sweep")
+    again = sweeping.begun(folder, described)
+    if force:
+        (folder / sweeping.TABLE).unlink(missing_ok=True)
+    elif again:
+        complain(f"Taking up the sweep in '{folder}'.")
+    else:
+        check_free(folder, force=False)
+    with writing_to(folder):
+        try:
+            table = sweeping.carry_out(described, folder, workers=count, keep=keep, cluster=cluster)
+        except KeyboardInterrupt:
+            complain(f"Interrupted; the same command takes up the sweep in '{folder}' again.")
+            return INTERRUPTED
+        from magwire.plot import save_sweep
+
+        save_sweep(table, folder)
+    for line in sweeping.lines(table):
+        say(line)
+    say(f"{'written to':22}{folder}")
+    early = [str(word) for word in table["status"].values if word != "complete"]
+    if early:
+        complain(
+            f"{len(early)} of {runs} runs did not reach their end; the table's messages say why."
+        )
+    return 1 if early else 0
+
+
+@app.command
+def bench(
+    *,
+    repeats: int = 5,
+    quick: Annotated[bool, Parameter(negative="")] = False,
+    as_json: Annotated[bool, Parameter(name="--json", negative="")] = False,
+    read: Annotated[Path | None, Parameter(name="--read")] = None,
+) -> int:
+    """Measure times, counts and ratios on this machine: one page, in one thread.
+
+    Parameters
+    ----------
+    repeats
+        How often each thing is measured.
+    quick
+        One repeat of a short feed, which shows that it works.
+    as_json
+        Print all samples as JSON in place of the page.
+    read
+        File of such samples to make the page of, without measuring.
+    """
+    import os
+    import subprocess
+
+    from magwire.errors import whole
+    from magwire.many.processes import ONE_THREAD
+
+    whole("bench", "--repeats", repeats, minimum=1)
+    if read is None and any(os.environ.get(name) != one for name, one in ONE_THREAD.items()):
+        # Libraries look at these when they are loaded, which they are by now.
+        words = ["bench", "--repeats", str(repeats), *["--quick"] * quick, *["--json"] * as_json]
+        command = [sys.executable, "-m", "magwire", *words]
+        return subprocess.run(command, env=os.environ | ONE_THREAD, check=False).returncode
+    from magwire.bench import page
+
+    if read is None:
+        from rich.console import Console
+
+        from magwire.bench.run import measure
+
+        with Console(stderr=True).status("measuring ...") as status:
+            results = measure(repeats=repeats, quick=quick, tell=status.update)
+    else:
+        results = page.load(read)
+    if as_json:
+        say(json.dumps(results, indent=1))
+    else:
+        page.show(results)
+    return 0
+
+
+@app.command
 def reproduce(*, only: Names = None, out: Folder = None, force: Force = False) -> int:
     """Run the paper's cases: figures, and what it says next to what magwire finds.
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -125,6 +127,41 @@ def test_an_affine_field_may_pretend_not_to_be() -> None:
     np.testing.assert_allclose(runs[0].position, runs[1].position, atol=1e-9 * L)
     assert runs[0].totals.steps == runs[1].totals.steps
     assert runs[0].totals.newton_iterations == runs[1].totals.newton_iterations
+
+
+BENDING = Dipole((0.05, 0.033, 0.002), (4.0, 0.5, -0.3))
+"""Bends a wire that is magnetised all along by four tenths of its length."""
+
+
+def magnet(nodes: int = 60) -> Wire:
+    return Wire.uniform(L, 0.4e-3, 3e6, 1e6, 2000.0, nodes, magnetized_tip=L, magnetization=20e3)
+
+
+def test_sensitivities_near_a_magnet_against_differences() -> None:
+    """The stiffness has the second derivatives of the field."""
+    state = free(magnet()).equilibrium(L, BENDING)
+    assert state.stable
+    assert abs(state.tip[1]) > 0.25 * L
+
+    def moved(feed: float = L, uniform: tuple[float, ...] = (0.0, 0.0, 0.0)) -> np.ndarray:
+        source = Dipole(BENDING.place, BENDING.moment, uniform)
+        return free(magnet()).equilibrium(feed, source, start=state).tip
+
+    by_field, step = state.sensitivity("tip", wrt="field"), 1e-5
+    for i, axis in enumerate(np.eye(3)):
+        quotient = (moved(uniform=step * axis) - moved(uniform=-step * axis)) / (2.0 * step)
+        np.testing.assert_allclose(by_field[:, i], quotient, atol=1e-3 * np.abs(by_field).max())
+    by_feed, near = state.sensitivity("tip", wrt="feed"), 0.999 * L
+    quotient = (moved(L) - moved(near)) / (L - near)
+    np.testing.assert_allclose(by_feed, quotient, atol=5e-3)
+
+
+def test_stability_near_a_magnet() -> None:
+    """A dipole that points away stiffens the wire: affine around its nodes it would be unstable."""
+    source = Dipole((0.05, 0.033, 0.0), 0.1 * np.array([0.0, 10.0, 0.0]))
+    state = free(magnet()).equilibrium(L, source)
+    assert state.stable
+    assert not replace(state.point, unsampled=None).stable
 
 
 def test_a_field_that_varies_too_strongly_is_refused() -> None:

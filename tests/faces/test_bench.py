@@ -11,20 +11,24 @@ from typing import Any
 import numpy as np
 import pytest
 
-BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
+from magwire.bench.page import load, text
+from magwire.bench.repeats import exponent, interleaved, least, median
+from magwire.cli import main
+
+ROOT = Path(__file__).parents[2]
 TABLES = ("1  Time step by case", "2  Against the number of nodes", "3  Against the number of")
-OTHERS = ("4  Starts", "5  What recording and the result file cost")
+OTHERS = ("4  Against the size", "5  Update", "6  Relative compute time", "7  Starts", "8  What")
 
 
 @pytest.fixture(scope="module")
-def quick(tmp_path_factory: pytest.TempPathFactory) -> tuple[str, dict[str, Any]]:
-    """What a quick run prints, and what it writes."""
-    file = tmp_path_factory.mktemp("bench") / "bench.json"
-    command = [sys.executable, BENCHMARKS / "run.py", "--quick", "--json", file]
+def quick() -> tuple[str, dict[str, Any]]:
+    """The page of a quick run, and the samples that it is made of."""
+    command = [sys.executable, "-m", "magwire", "bench", "--quick", "--json"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert not done.stderr
-    return done.stdout, json.loads(file.read_text(encoding="utf-8"))
+    results = json.loads(done.stdout)
+    return text(results), results
 
 
 def test_all_tables_are_printed(quick: tuple[str, dict[str, Any]]) -> None:
@@ -39,7 +43,7 @@ def test_all_tables_are_printed(quick: tuple[str, dict[str, Any]]) -> None:
 
 def test_counts_stand_next_to_the_times(quick: tuple[str, dict[str, Any]]) -> None:
     _, results = quick
-    for row in (*results["cases"], *results["nodes"], *results["points"]):
+    for row in (*results["cases"], *results["nodes"], *results["points"], *results["tree"]):
         for sample in row["samples"]:
             assert sample["converged"]
             assert sample["steps"] == round(sample["simulated"] / row["time_step"])
@@ -49,7 +53,7 @@ def test_counts_stand_next_to_the_times(quick: tuple[str, dict[str, Any]]) -> No
 
 def test_same_march_is_measured_once(quick: tuple[str, dict[str, Any]]) -> None:
     _, results = quick
-    rows = [*results["cases"], *results["nodes"], *results["points"]]
+    rows = [*results["cases"], *results["nodes"], *results["points"], *results["tree"]]
     known: dict[tuple[object, ...], object] = {}
     for row in rows:
         key = tuple(value for name, value in row.items() if name != "samples")
@@ -57,18 +61,29 @@ def test_same_march_is_measured_once(quick: tuple[str, dict[str, Any]]) -> None:
     assert len(known) < len(rows)
 
 
-def test_exponent_is_a_slope(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.syspath_prepend(BENCHMARKS)
-    from repeats import exponent
+def test_updates_count_equilibria(quick: tuple[str, dict[str, Any]]) -> None:
+    _, results = quick
+    solves = {row["method"]: row["samples"][0]["solves"] for row in results["updates"]}
+    assert solves["paper"] > 5 * solves["newton"] > 0
+    assert not any(row["samples"][0]["stopped"] for row in results["updates"])
 
+
+def test_page_of_the_documentation_is_made_of_its_samples(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    samples = ROOT / "docs" / "_static" / "bench.json"
+    assert main(["bench", "--read", str(samples)]) == 0
+    page = (ROOT / "docs" / "benchmarks.md").read_text(encoding="utf-8")
+    assert text(load(samples)) in page
+    assert "11  Other engines" in capsys.readouterr().out
+
+
+def test_exponent_is_a_slope() -> None:
     sizes = np.array([50.0, 100.0, 200.0, 400.0, 800.0])
     assert exponent(sizes, 3e-6 * sizes**1.07) == pytest.approx(1.07)
 
 
-def test_repeats_are_interleaved(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.syspath_prepend(BENCHMARKS)
-    from repeats import interleaved, least, median
-
+def test_repeats_are_interleaved() -> None:
     order: list[str] = []
 
     def job(name: str) -> dict[str, float]:

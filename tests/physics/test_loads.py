@@ -98,4 +98,6 @@ def test_rest_curvature_bends_an_unloaded_wire_into_an_arc() -> None:
         height = np.linalg.norm(state.tip[1:])
         assert state.tip[0] == pytest.approx(radius * np.sin(angle), rel=1e-3)
         assert height == pytest.approx(radius * (1.0 - np.cos(angle)), rel=1e-3)
+        turned = np.arctan2(np.linalg.norm(state.tip_direction[1:]), state.tip_direction[0])
+        assert turned == pytest.approx(angle * (1.0 - 0.5 / 100.0), abs=1e-9)  # of the last edge
         assert state.stable

@@ -9,19 +9,25 @@ from numpy.typing import NDArray
 
 from magwire.engine.system import System
 from magwire.kernels.arrays import Field, Motion, Mouth, Rod, State, Work
-from magwire.kernels.assembly import assemble
+from magwire.kernels.assembly import FIRST, assemble
+from magwire.kernels.band import factor
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Point:
-    """An equilibrium as the kernels hold it."""
+    """An equilibrium as the kernels hold it.
+
+    ``unsampled`` is what second derivatives of the field add to the stiffness, by the middle of
+    each edge, shape (edges, 3, 3), scaled; nothing in an affine field.
+    """
 
     system: System
     field: Field
     state: State
     mouth: Mouth
+    unsampled: Array | None = None
 
     def gradient(
         self,
@@ -49,3 +55,30 @@ class Point:
         where = mouth or self.mouth
         energy, _ = assemble(model, self.state, where, still, work.gradient, work.no_band)
         return float(energy), work.gradient.copy()
+
+    def stiffness(self, work: Work) -> Array:
+        """Tangent stiffness, scaled, in the layout of ``work.band``."""
+        system = self.system
+        model = (system.rod, self.field, system.new_wall(), system.walls)
+        still = Motion(0.0, work.target)
+        assemble(model, self.state, self.mouth, still, work.gradient, work.band)
+        if self.unsampled is not None:
+            self._add(self.unsampled, work.band)
+        return work.band
+
+    def _add(self, unsampled: Array, band: Array) -> None:
+        """The middle of an edge moves by half of what either node does."""
+        edges = np.arange(self.mouth.held, len(unsampled))
+        near = 4 * (edges - self.mouth.held + 1)
+        for c, d in np.ndindex(3, 3):
+            quarter = 0.25 * unsampled[edges, c, d]
+            band[near + d, 4 + c - d] += quarter
+            if c >= d:
+                band[near + d, c - d] += quarter
+                band[near + 4 + d, c - d] += quarter
+
+    @property
+    def stable(self) -> bool:
+        """Whether the tangent stiffness is positive definite."""
+        free = 4 * (len(self.state.q) - self.mouth.held + 1) - 1
+        return bool(factor(self.stiffness(self.system.new_work()), FIRST, free) < 0)

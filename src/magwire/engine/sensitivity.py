@@ -16,8 +16,8 @@ from scipy.linalg import solve_banded
 from magwire.engine.parameters import parameter_loads
 from magwire.engine.point import Point
 from magwire.errors import one_of
-from magwire.kernels.arrays import Field, Motion, Mouth, Work
-from magwire.kernels.assembly import FIRST, assemble
+from magwire.kernels.arrays import Field, Mouth, Work
+from magwire.kernels.assembly import FIRST
 from magwire.kernels.band import WIDTH, factor, solve
 from magwire.wire import Parameter
 
@@ -75,7 +75,7 @@ def _loads(point: Point, wrt: Input) -> tuple[Array, tuple[int, ...], float]:
         return _differences(point, fields, work), (3, 3), 1.0 / system.wire.length
     if wrt != "feed" and wrt != "twist":
         return *parameter_loads(point, wrt, work), 1.0
-    band = _band(point, work)
+    band = point.stiffness(work)
     lead = np.zeros(FIRST)
     if wrt == "twist":
         lead[3] = 1.0
@@ -106,15 +106,6 @@ def _by_part(point: Point, work: Work) -> Array:
     return (there - point.gradient(work)) * 2.0 / part
 
 
-def _band(point: Point, work: Work) -> Array:
-    """Tangent stiffness in the band's layout."""
-    system = point.system
-    model = (system.rod, point.field, system.new_wall(), system.walls)
-    still = Motion(0.0, work.target)
-    assemble(model, point.state, point.mouth, still, work.gradient, work.band)
-    return work.band
-
-
 def _coupling(band: Array, lead: Array, point: Point) -> Array:
     """Load of the guide's displacements on the free unknowns, shape [nodes + 1, 4]."""
     nodes, held = len(point.state.q), point.mouth.held
@@ -135,7 +126,7 @@ def _solve(point: Point, loads: Array) -> Array:
     moved = np.zeros_like(loads)
     if held == nodes - 1:
         return moved
-    band = _band(point, point.system.new_work())
+    band = point.stiffness(point.system.new_work())
     whole = _both_triangles(band[FIRST:last])
     used = 4 * (nodes - held + 1)
     rows = np.zeros((len(loads), len(band)))

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from magwire.engine.point import Point
-from magwire.engine.sampling import SAMPLINGS, mismatch, sample
+from magwire.engine.sampling import sample, unsampled_stiffness
 from magwire.engine.sensitivity import Input, Output, derivative
 from magwire.engine.status import Status
 from magwire.engine.system import System
+from magwire.engine.uneven import Settled, settle
 from magwire.errors import ConvergenceError, finite, within
 from magwire.field import FieldSource
-from magwire.kernels.arrays import Motion, Mouth, State
+from magwire.kernels.arrays import Motion, Mouth, State, Work
 from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.hinge import transport
 from magwire.kernels.march import Plan, Tally, march
@@ -103,8 +104,7 @@ class Equilibrium:
 
         Notes
         -----
-        (P-21): K dq/du = -d(grad E)/du with the tangent stiffness K. Exact in a field that is
-        linear in space; in any other, K leaves out the second derivatives of the field.
+        (P-21): K dq/du = -d(grad E)/du with the tangent stiffness K.
         """
         return derivative(self.point, output, wrt)
 
@@ -128,31 +128,20 @@ def find_equilibrium(
     else:
         state = follow(system, source, start, part, twist)
     place_held(system.rod, system.guide, state, 0, held, part, twist)
-    wall, work = system.new_wall(), system.new_work()
-    limits = system.sharp_limits()
-    iterations, residual = 0, 0.0
-    samples = sample(system, source, state)
-    for _ in range(SAMPLINGS if held < system.wire.nodes else 0):
-        model = (system.rod, samples, wall, system.walls)
-        still = Motion(0.0, work.target)
-        status, taken, _, residual, _ = newton(model, state, mouth, still, work, limits)
-        iterations += taken
-        if status != Status.CONVERGED:
-            raise _failure(system, feed, Status(status).remedy, state)
-        used, samples = samples, sample(system, source, state)
-        if source.affine or mismatch(system, used, samples, held) <= limits.tolerance:
-            break
-    else:
-        if held < system.wire.nodes:
-            reason = (
-                "the field varies too strongly along the wire; try a start in a field that is "
-                "nearly the same"
-            )
-            raise _failure(system, feed, reason, state)
+    work = system.new_work()
+    done = Settled(sample(system, source, state), "", 0, 0.0)
+    if held < system.wire.nodes:
+        done = (_settle if source.affine else settle)(system, source, state, mouth, work)
+    if done.reason:
+        raise _failure(system, feed, done.reason, state)
     nodes = len(state.q)
     forces, clearance = np.zeros((nodes, 3)), np.full(nodes, np.nan)
-    model = (system.rod, samples, wall, system.walls)
+    model = (system.rod, done.field, system.new_wall(), system.walls)
     _, stable = observe(model, state, mouth, work, forces, clearance)
+    point = Point(system, done.field, state, mouth)
+    if held < system.wire.nodes and not source.affine:
+        point = replace(point, unsampled=unsampled_stiffness(system, source, state))
+        stable = point.stable
     return Equilibrium(
         feed=feed,
         twist=twist,
@@ -160,10 +149,20 @@ def find_equilibrium(
         wall_force=forces[1:] * system.scales.force,
         clearance=clearance[1:] * system.scales.length,
         stable=bool(stable),
-        residual=residual * system.scales.force,
-        iterations=iterations,
-        point=Point(system, samples, state, mouth),
+        residual=done.residual * system.scales.force,
+        iterations=done.iterations,
+        point=point,
     )
+
+
+def _settle(system: System, source: FieldSource, state: State, mouth: Mouth, work: Work) -> Settled:
+    """Bring a state to rest in an affine field."""
+    samples = sample(system, source, state)
+    model = (system.rod, samples, system.new_wall(), system.walls)
+    still = Motion(0.0, work.target)
+    status, taken, _, residual, _ = newton(model, state, mouth, still, work, system.sharp_limits())
+    reason = "" if status == Status.CONVERGED else Status(status).remedy
+    return Settled(samples, reason, taken, residual)
 
 
 def lay_on_centreline(system: System, held: int, feed: float, twist: float) -> State:

@@ -93,7 +93,7 @@ class System:
             stretch=_ghost(mesh.stretching_stiffness) * length / energy,
             bend=_ghost(mesh.bending_stiffness) / energy,
             twist=_ghost(mesh.twisting_stiffness) / energy,
-            rest_curvature=_ghost(mesh.rest_turn),
+            rest_curvature=_ghost(mesh.rest_curvature),
             moment=_ghost(mesh.moment) / energy,
             mass=_ghost(mesh.mass) * inertia,
             inertia=_ghost(mesh.axial_inertia) / energy,

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
 
 Array = NDArray[np.float64]
 Shape = tuple[Array, Array, Array]
@@ -68,6 +67,7 @@ def bends(table: Array, points: int) -> Shape:
     c' = t, t' = k1 m1 + k2 m2, m1' = -k1 t, m2' = -k2 t from c = 0, t = x, m1 = y, m2 = z: the
     frame goes along without twist.
     """
+    from scipy.integrate import solve_ivp
 
     def slope(s: float, state: Array) -> Array:
         t, m1, m2 = state[3:].reshape(3, 3)

@@ -30,8 +30,9 @@ ROUND_OFF = 1e-4  # a rise of the merit by less does not matter
 MISSED = 0.1  # part of the lumen's radius, or of the margin, by which a constraint may be missed
 SLIP = 0.2  # change of the tip's offset from one feed to the next that is a slip, in that radius
 INERTIA = 0.015  # feed over which the field may follow what is asked for, in the wire's length
-RETRIES = 12  # of a feed at which the wire is lost, each with a larger margin before it
+TRIES = 12  # of a feed at which the wire is lost, each with a larger margin before it
 STIFFER = 1.15  # eigenvalue for a retry, over the one with which the wire was lost
+FIRM = 500.0
 RELAXING = 0.95  # of that larger margin from one planned feed to the next
 
 
@@ -68,9 +69,13 @@ class Pilot:
         The wire; it is moved about.
     programme
         What the fields must keep to.
+    firm
+        Eigenvalue, in stability margins, from which on a wire that was lost is made only a little
+        stiffer.
     """
 
-    def __init__(self, model: Model, programme: Programme) -> None:
+    def __init__(self, model: Model, programme: Programme, firm: float = FIRM) -> None:
+        self.firm = firm
         self.model = model
         self.programme = programme
         self._length = model.system.wire.length
@@ -97,7 +102,7 @@ class Pilot:
         """
         model, moved = self.model, abs(feed - last.feed)
         model.return_to(last.memory)
-        for _ in range(RETRIES):
+        for _ in range(TRIES):
             try:
                 view = self._reach(feed, last, moved)
             except NavigationError as failure:
@@ -108,12 +113,17 @@ class Pilot:
                 return last, Knot(feed, model.remember(), view)
             if last.view is None:
                 break
-            self._margin = max(2.0 * self._margin, STIFFER * last.view.eigenvalue)
+            self._margin = self._stiffer(last.view.eigenvalue)
             model.return_to(last.memory)
             view = self._improve(last.view, last.flux, moved)
             last = Knot(last.feed, model.remember(), view)
         self.forget()
         raise lost
+
+    def _stiffer(self, eigenvalue: float) -> float:
+        """The margin with which to try again after the wire was lost with this eigenvalue."""
+        firm = eigenvalue > self.firm * self.programme.demands.stability_margin
+        return max((STIFFER if firm else 2.0) * self._margin, STIFFER * eigenvalue)
 
     def _reach(self, feed: float, last: Knot, moved: float) -> View | None:
         """Feed the model on and find the field there; the view there, if there is anything."""

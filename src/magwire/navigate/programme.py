@@ -155,8 +155,8 @@ def solve(
 ) -> Array | None:
     """Solve a programme whose first three unknowns are the change of the field, in units.
 
-    The others are slacks, which are not negative. Returns the change [T], or None. The solver scales
-    the rows in place: it gets a copy.
+    The others are slacks, which are not negative. Returns the change [T], or None. The solver
+    scales the rows in place: it gets a copy.
     """
     slacks = len(slope) - 3
     low = np.concatenate([bounds[0], np.zeros(slacks), limits[0]])

@@ -77,7 +77,8 @@ class StableNavigator:
             system.wire.radius if system.contact.wall == "surface" else 0.0,
         )
         unlimited = replace(programme, demands=replace(self.demands, max_field=float("inf")))
-        self._pilot, self._scout = Pilot(self.model, programme), Pilot(self.model, unlimited)
+        self._pilot = Pilot(self.model, programme)
+        self._scout = Pilot(self.model, unlimited, firm=float("inf"))
         self._swings = Swings(self.model, programme)
         self._begin(Knot(0.0, self.model.remember(), None), back=False)
 
@@ -202,6 +203,7 @@ class StableNavigator:
                 if last.feed > knots[-1].feed + SCOUT * self._length:
                     return []
                 _, last = scout.advance(last, last.feed + self.plan_every)
+            scout.forget()
             while self._swings.is_held(last.view) and last.feed > knots[0].feed:
                 found.insert(0, last)
                 found[0], last = scout.advance(last, last.feed - self.plan_every)

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,12 +24,13 @@ from magwire.navigate.schedule import Schedule
 
 Array = NDArray[np.float64]
 
-SPACING = 0.12  # between the places that the tip is sent to, in the lumen's radius
+SPACING = 0.12  # between the places where the tip may start, in the lumen's radius
+COARSE = 0.24  # and between those where it may arrive
 MARGINAL = 1.15  # room for these places, over the room for the tip
 BOUND = 0.8  # of the tip's offset while the wire swings, in the lumen's radius
 OFF = 0.6  # part of the field's tolerance that is asked for while the wire swings
 SUPPORT = 20.0  # eigenvalue above which the wall must be holding the wire, in stability margins
-STRENGTHS = (1.0, 1.2, 1.4)  # of the field in which it arrives, over the one that would do
+FIRM = 1.25  # field in which the wire arrives, over the least that holds it there
 ROUND = 1e-9  # round-off of feeds [m]
 SPARSE = 0.02  # feed between the fields that a course must also be able to do with, in that length
 LENGTH = 0.02  # of feed for the swing, in the wire's length
@@ -110,17 +112,15 @@ class Swings:
         leads = [k for k in starts if k.feed <= starts[-1].feed - LEAD * length + ROUND]
         if not leads or leads[-1].view is None:
             return []
-        places = [p for p in self._places(starts[-1], highest) if not self.is_held(p.view)]
-        rest = [k for k in held if k.feed >= landing.feed + LENGTH * length - ROUND][:1]
+        places = [p for p in self._places(starts[-1], SPACING, highest) if not self.is_held(p.view)]
+        landings = [p for p in self._places(landing, COARSE, highest) if self.is_held(p.view)]
         found = []
-        for strength in STRENGTHS:
-            firm = Knot(
-                landing.feed, replace(landing.memory, flux=strength * landing.flux), landing.view
-            )
-            for place in places:
-                largest = max(norm(knot.flux) for knot in (place, firm, *rest))
-                if largest <= highest:
-                    found.append((largest, [*leads, place, firm, *rest]))
+        for place, aim in product(places, landings):
+            firm = replace(aim, memory=replace(aim.memory, flux=FIRM * aim.flux))
+            rest = replace(firm, feed=firm.feed + LENGTH * length)
+            largest = max(norm(place.flux), norm(firm.flux))
+            if largest <= highest:
+                found.append((largest, [*leads, place, firm, rest]))
         return found
 
     def is_held(self, view: View | None) -> bool:
@@ -149,7 +149,7 @@ class Swings:
         view = model.look() if model.settle(plan.flux_density[-1]) else None
         return view is not None and self.is_held(view)
 
-    def _places(self, knot: Knot, highest: float) -> list[Knot]:
+    def _places(self, knot: Knot, spacing: float, highest: float) -> list[Knot]:
         """Equilibria with the tip all over its room, in the least stable fields.
 
         They are reached one from the other, beginning at a knot, in steps across the lumen.
@@ -159,17 +159,17 @@ class Swings:
             return []
         size, axes = view.radius, view.axes
         room = MARGINAL * self.programme.room(view)
-        first = np.round(view.offset / (SPACING * size)).astype(int)
+        first = np.round(view.offset / (spacing * size)).astype(int)
         seen, found = {tuple(first), *neighbours(tuple(first))}, []
         waiting = deque((cell, knot) for cell in sorted(seen))
         while waiting:
             cell, origin = waiting.popleft()
-            place = self._send(origin, SPACING * size * np.array(cell) @ axes, highest)
+            place = self._send(origin, spacing * size * np.array(cell) @ axes, highest)
             if place is None:
                 continue
             found.append(place)
             for near in neighbours(cell):
-                if near not in seen and SPACING * size * norm(np.array(near)) <= room:
+                if near not in seen and spacing * size * norm(np.array(near)) <= room:
                     seen.add(near)
                     waiting.append((near, place))
         return found

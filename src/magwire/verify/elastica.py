@@ -27,7 +27,7 @@ from magwire.wire import Section, Wire
 GROUP = "elastica"
 THIN = 0.1e-3  # m: L = 1000 r, so that stretching is out of sight
 FINE = 200
-"""Nodes where the wire may turn by more than half a circle in all."""
+"""Nodes where a column turns by more than half a circle from end to end."""
 MESHES = (26, 51, 101, 201)
 POINTS = 2 * NODES - 1
 """Of a reference: the nodes and the middles between them."""
@@ -172,20 +172,21 @@ def _pinned_postbuckled(full: bool) -> Iterator[Line]:
     for part in (1.1, 1.5, 2.0) if full else (1.5,):
         load = part * columns.euler("pinned-pinned")
         exact = pendulum.under_force(0.25 * load, np.pi)
-        rig = Rig(FINE)
+        nodes = NODES if exact.angle < 0.5 * np.pi else FINE
+        rig = Rig(nodes)
         rig.hold("pinned", "pinned")
         rig.fix((slice(None), 2), (slice(None), 3))
         rig.pull(-load)
-        s = np.linspace(0.0, 1.0, FINE)
+        s = np.linspace(0.0, 1.0, nodes)
         q = rig.state.q.copy()
         q[1:-1, 0], q[1:-1, 1] = s * exact.x, 0.5 * exact.y * np.sin(np.pi * s)
         q[-1, 0] = q[-2, 0] + rig.edge
         rig.move(q)
         rig.settle()
-        case = f"column, pinned-pinned, {part:g} times the critical load, {FINE} nodes"
+        case = f"column, pinned-pinned, {part:g} times the critical load, {nodes} nodes"
         ends = rig.state.q[1:-1, :2]
         edge = ends[1] - ends[0]
-        middle = 0.5 * float(ends[FINE // 2, 1] + ends[FINE // 2 - 1, 1])
+        middle = 0.5 * float(ends[nodes // 2, 1] + ends[nodes // 2 - 1, 1])
         source = "Euler 1744, elliptic integrals"
         for quantity, unit, reference, value in (
             ("distance of the ends", "L", exact.x, float(ends[-1, 0])),
@@ -218,10 +219,9 @@ def _shape(
 def _rest_curvature(full: bool) -> Iterator[Line]:
     """m1, towards which the wire is curved, is a director of the guide: here z."""
     for turn in (0.5, 1.5, 3.0, 6.0) if full else (0.5, 3.0):
-        nodes = FINE if turn > np.pi else NODES
-        curved = magnet(nodes, 0.0, radius=THIN, rest_curvature=(turn / L, 0.0))
-        case = f"rest curvature {turn:g}/L, no load, {nodes} nodes"
-        exact = planar.arc(turn, 2 * nodes - 1)
+        curved = magnet(NODES, 0.0, radius=THIN, rest_curvature=(turn / L, 0.0))
+        case = f"rest curvature {turn:g}/L, no load"
+        exact = planar.arc(turn, POINTS)
         state = free(curved).equilibrium(L)
         yield from _shape(case, state, exact, "arc of a circle", 0.5 * np.pi)
     for turn, load in ((1.5, -2.0), (1.5, 3.0), (3.0, -1.0)) if full else ((1.5, -2.0),):

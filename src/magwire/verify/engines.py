@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.contact import Barrier
+from magwire.engine.dynamics import March
+from magwire.engine.feed import Feed
 from magwire.engine.sampling import sample
 from magwire.field import UniformField
 from magwire.kernels.march import Plan, Tally, march
@@ -24,6 +26,8 @@ Array = NDArray[np.float64]
 GROUP = "engines"
 OLDEST = 4
 L, RADIUS, BEND, TUBE = 0.1, 0.6e-3, 0.025, 3.6e-3
+PUSH_STEP, SPEED = 0.01, 1e-3
+"""Of magwire's push: time step [s] and speed [m/s]."""
 MATERIAL = {"youngs_modulus": 3e6, "shear_modulus": 1e6, "density": 2000.0}
 
 
@@ -37,7 +41,7 @@ def evidence(full: bool) -> Iterator[Line | Curve | Skipped]:
     for b, degrees in ((3.0, 90.0), (8.0, 90.0), (3.0, 135.0)) if full else ((3.0, 90.0),):
         yield from _cantilever(b, degrees)
     if full:
-        for feed in (0.3, 0.5):
+        for feed in (0.3, 0.5, 0.7):
             yield from _push(feed)
 
 
@@ -87,7 +91,8 @@ def _cantilever(b: float, degrees: float) -> Iterator[Line | Curve]:
         GROUP, f"{case}, after {duration:g} s", "tip at rest, 51 nodes each", "L", 0.0, source,
         float(np.linalg.norm(theirs[1].nodes[-1] - ours)) / L, 1e-3,
     )  # fmt: skip
-    yield _shapes(case, theirs[1].nodes, Simulation(wire, Lumen.open_space()), flux, L)
+    rest = Simulation(wire, Lumen.open_space()).equilibrium(L, flux)
+    yield _shapes(case, theirs[1].nodes, rest.positions)
 
 
 def _settle(wire: Wire, flux: Array, step: float, duration: float) -> tuple[Array, float]:
@@ -117,9 +122,10 @@ def _settle(wire: Wire, flux: Array, step: float, duration: float) -> tuple[Arra
 
 
 def _push(feed: float) -> Iterator[Line | Curve]:
-    """A wire pressed into the paper's half-circle, its surface against the wall.
+    """A wire pushed into the paper's half-circle, its surface against the wall.
 
-    MuJoCo's wire lies in a channel with facets of half a degree and stays in the plane.
+    MuJoCo's wire cannot be fed: it has the length that is inside, is laid along the bend and let
+    go. It lies in a channel with facets of half a degree and stays in the plane.
     """
     length, nodes, step, duration = feed * L, 26, 3e-4, 3.0
     rod = mujoco_rod.Rod(length=length, nodes=nodes, radius=RADIUS, **MATERIAL)
@@ -130,33 +136,45 @@ def _push(feed: float) -> Iterator[Line | Curve]:
     begin[:, 0] = np.where(x > 0.0, BEND * np.sin(angle), x)
     begin[:, 1] = BEND * (1.0 - np.cos(angle))
     theirs = mujoco_rod.settle(model, duration, begin=begin)
-    wire = _wire(L, NODES)
-    sim = Simulation(wire, Lumen.half_circle(BEND, TUBE), contact=Barrier(1e3, 0.02e-3))
-    sim.equilibrium(length)  # reads compiled code
-    clock = time.perf_counter()
-    ours = sim.equilibrium(length)
-    seconds = time.perf_counter() - clock
+    ours, steps, seconds = _pushed(length)
+    force = ours.system.scales.force
+    record = ours.record()
     source = (
-        f"MuJoCo {version('mujoco')}, {nodes} nodes, at rest after {theirs.steps} steps of "
-        f"{theirs.step_seconds * 1e6:.0f} µs; magwire's equilibrium takes {seconds * 1e3:.0f} ms"
+        f"MuJoCo {version('mujoco')}, {nodes} nodes, let go in the bend, at rest after "
+        f"{theirs.steps} steps of {step * 1e3:g} ms, {theirs.step_seconds * 1e6:.0f} µs each; "
+        f"magwire pushes {NODES} nodes there in {steps} steps of {PUSH_STEP * 1e3:g} ms, "
+        f"{seconds * 1e6:.0f} µs each"
     )
-    case = f"pressed {feed:g} L into the half-circle"
+    case = f"pushed {feed:g} L into the half-circle"
     for i, axis in enumerate("xy"):
         yield Line(
             GROUP, case, f"tip {axis}", "L", float(theirs.nodes[-1, i] / L), source,
-            float(ours.tip[i] / L), 1e-3,
+            float(record.position[-1, i] / L), 1e-3,
         )  # fmt: skip
-    force = sim.system.scales.force
     yield Line(
         GROUP, case, "sum of wall forces", "EI/L²", theirs.wall_force / force, source,
-        float(np.linalg.norm(ours.wall_force, axis=1).sum()) / force, 0.05, relative=True,
+        float(np.linalg.norm(record.contact_force, axis=1).sum()) / force, 0.05, relative=True,
     )  # fmt: skip
-    yield _shapes(case, theirs.nodes, sim, np.zeros(3), length)
+    yield _shapes(case, theirs.nodes, record.position)
 
 
-def _shapes(case: str, theirs: Array, sim: Simulation, flux: Array, feed: float) -> Curve:
-    ours = sim.equilibrium(feed, flux).positions[:: max(1, NODES // 40)]
-    inside = ours[ours[:, 0] > -0.05 * L]
+def _pushed(length: float) -> tuple[March, int, float]:
+    """A wire pushed so far, with inertia; number of steps, and the time that each took [s]."""
+    sim = Simulation(
+        _wire(L, NODES),
+        Lumen.half_circle(BEND, TUBE),
+        contact=Barrier(1e3, 0.02e-3),
+        damping=mujoco_rod.DAMPING,
+    )
+    result = March(sim.system, UniformField(), Feed(SPEED, length), time_step=PUSH_STEP)
+    result.advance(1)  # reads compiled code
+    clock = time.perf_counter()
+    result.advance(result.steps)
+    return result, result.steps, (time.perf_counter() - clock) / (result.steps - 1)
+
+
+def _shapes(case: str, theirs: Array, ours: Array) -> Curve:
+    inside = ours[ours[:, 0] > -0.05 * L][:: max(1, NODES // 40)]
     return Curve(
         case[:1].upper() + case[1:],
         "x [L]",

@@ -59,8 +59,10 @@ def _at(wire: Wire, b: float, degrees: float) -> Equilibrium:
     return free(wire).equilibrium(L, flux(wire, b, degrees))
 
 
-def _nodes(degrees: float, *, b: float = 0.0, part: float = 1.0) -> int:
-    steep = (degrees > 90.0 and part < 0.03) or (degrees > 150.0 and b > 50.0)
+def _nodes(angle: float, *, b: float = 0.0, part: float = 1.0) -> int:
+    """By the angle of the tip [rad]; below a right angle all wires have the same."""
+    turned = np.degrees(angle)
+    steep = (turned > 90.0 and part < 0.03) or (turned > 150.0 and b > 50.0)
     return STEEP if steep else NODES
 
 
@@ -71,8 +73,8 @@ def _uniform(full: bool) -> Iterator[Line | Curve]:
     else:
         cases = [(30.0, 1.0), (90.0, 3.0), (135.0, 10.0), (135.0, 100.0), (179.0, 100.0)]
     for degrees, b in cases:
-        nodes = _nodes(degrees, b=b)
         exact = pendulum.under_force(b, np.radians(degrees))
+        nodes = _nodes(exact.angle, b=b)
         case = f"field at {degrees:g} degrees, b = {b:g}, {nodes} nodes"
         yield from compare(GROUP, case, _at(magnet(nodes), b, degrees), exact, ELASTICA)
     fine, few = np.geomspace(0.1, 100.0, 60), np.geomspace(0.1, 100.0, 10)
@@ -118,7 +120,7 @@ def _parts(full: bool) -> Iterator[Line | Curve]:
     for part, strength, degrees in cases:
         b = strength / part
         exact = pendulum.magnetised_tip(b, np.radians(degrees), part)
-        nodes = _nodes(degrees, part=part)
+        nodes = _nodes(exact.angle, part=part)
         state = _at(magnet(nodes, part), b, degrees)
         case = (
             f"distal {part:g} L magnetised, field at {degrees:g} degrees, "
@@ -152,13 +154,14 @@ def _buckled(full: bool) -> Iterator[Line | Curve]:
     loads = (2.5, 2.6, 3.0, 4.0, 5.0, 10.0, 20.0, 50.0, 100.0) if full else (3.0, 10.0)
     angles = []
     for b in loads:
-        wire = magnet(_nodes(180.0, b=b))
+        exact = pendulum.under_force(b, np.pi)
+        wire = magnet(_nodes(exact.angle, b=b))
         sim = free(wire)
         start = sim.equilibrium(L, flux(wire, b, 177.0))
         state = sim.equilibrium(L, flux(wire, b, 180.0), start=start)
         angles.append(np.degrees(np.arctan2(*state.tip_direction[1::-1])))
         case = f"buckled in the antiparallel field, b = {b:g}, {wire.nodes} nodes"
-        yield from compare(GROUP, case, state, pendulum.under_force(b, np.pi), ELASTICA)
+        yield from compare(GROUP, case, state, exact, ELASTICA)
     first = pendulum.critical_antiparallel(1.0)
     fine = np.linspace(1.0005 * first, 10.0, 60)
     branch = np.degrees([pendulum.under_force(b, np.pi).angle for b in fine])
@@ -222,13 +225,17 @@ def _uneven() -> dict[str, FieldSource]:
     unit = free(magnet()).system.scales.flux_density
     slope = unit / L * np.array([[1.0, 2.0, -1.5], [2.0, 1.5, 1.0], [-1.5, 1.0, -2.5]])
     rows = tuple(tuple(row) for row in slope.tolist())
-    axis = 1e7 * unit * L**3 * np.array([0.3, -1.0, 0.6])  # mu_0/(4 pi) is 1e-7
+    size = 1e7 * unit * L**3  # mu_0/(4 pi) is 1e-7
+    axis = size * np.array([0.3, -1.0, 0.6])
     fields: dict[str, FieldSource] = {
-        "gradient field": GradientField((0.5 * unit, unit, 0.0), rows)  # type: ignore[arg-type]
+        "gradient field": GradientField((0.5 * unit, unit, 0.0), rows),  # type: ignore[arg-type]
+        "point dipole at (0.5, 0.33, 0) L that bends the wire by L/3": Dipole(
+            np.array([0.5, 0.33, 0.0]) * L, size * np.array([0.4, 0.0, 0.0])
+        ),
     }
-    for x, y, z, size in ((0.7, 0.6, -0.4, 0.4), (1.0, 0.6, 0.4, 0.2)):
+    for x, y, z, part in ((0.7, 0.6, -0.4, 0.4), (1.0, 0.6, 0.4, 0.2)):
         name = f"point dipole at ({x:g}, {y:g}, {z:g}) L"
-        fields[name] = Dipole(np.array([x, y, z]) * L, size * axis)
+        fields[name] = Dipole(np.array([x, y, z]) * L, part * axis)
     return fields
 
 
@@ -272,7 +279,7 @@ def _compare_in_space(
             s = np.linspace(0.0, 1.0, points)
             series[name] = (s, exact.place[:, k], "line")
             series[f"magwire, {name}"] = (s[::12], state.positions[::6, k] / L, "points")
-        yield Curve(f"Wire {case}", "s / L", "place / L", series)
+        yield Curve("Bent and twisted in space, the last b of those", "s / L", "place / L", series)
 
 
 def _darboux(wire: Wire) -> Array:

@@ -54,6 +54,16 @@ class Mesh:
     volume: Array
     radius: Array
 
+    @property
+    def rest_curvature(self) -> Array:
+        """Of each hinge at rest, in the measure of the bending energy, shape (nodes, 2).
+
+        A hinge that turns by an angle has the curvature 2 tan(angle/2) (P-3).
+        """
+        angle = np.linalg.norm(self.rest_turn, axis=1, keepdims=True)
+        result: Array = self.rest_turn * np.sinc(angle / (2.0 * np.pi)) / np.cos(0.5 * angle)
+        return result
+
 
 class Cells:
     """The bounds of a wire's edges and cells, and integrals over them."""

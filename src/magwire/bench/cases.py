@@ -10,8 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from repeats import Sample, interleaved
-
+from magwire.bench.repeats import Sample, interleaved
 from magwire.engine.dynamics import March
 from magwire.results import Result
 from magwire.scenario import load
@@ -24,16 +23,28 @@ COUNTS = ("newton_iterations", "factorisations", "retries")
 
 @dataclass(frozen=True)
 class Extent:
-    """How much is measured; ``push`` is the fed length over the wire's length."""
+    """How much is measured.
+
+    ``push`` is the fed length over the wire's length, ``points`` those of a centreline,
+    ``branch_points`` those of each of the three branches of a tree.
+    """
 
     push: float
     time_steps: tuple[float, ...]
     nodes: tuple[int, ...]
     points: tuple[int, ...]
+    branch_points: tuple[int, ...]
 
 
-WHOLE = Extent(0.72, (0.001, 0.01, 0.1), (50, 100, 200, 400, 800), (200, 2_000, 20_000))
-QUICK = Extent(0.3, (0.01, 0.1), (50, 100), (200, 2_000))
+WHOLE = Extent(
+    0.72,
+    (0.001, 0.003, 0.01, 0.03, 0.1),
+    (50, 100, 200, 400, 800, 1600),
+    (200, 2_000, 20_000, 100_000),
+    (5, 50, 500, 5_000, 33_333),
+)
+QUICK = Extent(0.3, (0.01, 0.1), (50, 100), (200, 2_000), (50, 500))
+TREE = "left-branch"
 
 
 @dataclass(frozen=True)
@@ -46,6 +57,7 @@ class Case:
     points: int = 200
 
     def job(self, push: float) -> Job:
+        """The scenario without steering, fed to ``push``."""
         settings = (
             "navigate.method=none",
             f"solver.time_step={self.time_step} s",
@@ -102,6 +114,7 @@ def cases(extent: Extent) -> dict[str, list[Case]]:
         "cases": [Case(name, dt) for dt in extent.time_steps for name in NAMES],
         "nodes": [Case("half-circle", nodes=nodes) for nodes in extent.nodes],
         "points": [Case("half-circle", points=points) for points in extent.points],
+        "tree": [Case(TREE, points=points) for points in extent.branch_points],
     }
 
 
@@ -112,7 +125,7 @@ def run_all(extent: Extent, repeats: int, tell: Callable[[str], None]) -> dict[s
         # What is compared with each other comes close together.
         jobs: dict[Hashable, Callable[[], Sample]] = {"no file": partial(record, extent.push, None)}
         jobs["file"] = partial(record, extent.push, Path(name))
-        for table in ("points", "nodes", "cases"):
+        for table in ("points", "tree", "nodes", "cases"):
             jobs |= {case: partial(step, case, extent.push) for case in tables[table]}
         tell("warming up")
         warm_up(Path(name))

@@ -5,6 +5,10 @@ from __future__ import annotations
 import json
 import sys
 import time
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from magwire.engine.record import Record
 
 stamps = {"python": time.time()}
 
@@ -41,12 +45,24 @@ def step(out: str) -> None:
     mark("models")
     with progress(job.feed.duration) as show:
 
-        def watch(record: object) -> None:
+        def watch(record: Record) -> None:
             if record.totals.steps > 0 and "step" not in stamps:
                 mark("step")
             show(record)
 
         job.run(Path(out) / "result.nc", watch=watch)
+
+
+def memory(name: str, out: str) -> None:
+    """A whole run with its result file; the peak memory of the process, in bytes."""
+    from pathlib import Path
+
+    from magwire.scenario import load
+
+    load(name).build().run(Path(out) / "result.nc")
+    # Not getrusage: that remembers how large the process was that started this one.
+    lines = Path("/proc/self/status").read_text(encoding="ascii").splitlines()
+    stamps["peak"] = 1024.0 * next(int(line.split()[1]) for line in lines if "VmHWM" in line)
 
 
 if __name__ == "__main__":

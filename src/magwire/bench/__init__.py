@@ -1,0 +1,1 @@
+"""Times, counts and ratios, measured side by side: ``magwire bench``."""
