@@ -187,7 +187,7 @@ def test_printed_peaks_are_what_magwire_finds(name: str) -> None:
     assert printed_peaks("README.md")[name] == pytest.approx(peak, abs=0.051)
 
 
-@pytest.mark.parametrize("name", ["half-circle", "sinusoid"])
+@pytest.mark.parametrize("name", ["half-circle", "sinusoid", "helix"])
 def test_printed_peak_fields_are_what_magwire_finds(name: str) -> None:
     from magwire.scenario import load
 
@@ -199,6 +199,7 @@ def test_printed_peak_fields_are_what_magwire_finds(name: str) -> None:
     assert result.max_tip_force == 0.0
     peak = result.peak_field / result.dataset.attrs["field_scale"]
     assert float(found[1]) == pytest.approx(peak, abs=0.51)
+    assert float(result.dataset["tip_offset"].max()) <= 0.8 * load(name).lumen.build().narrowest
 
 
 def test_readme_links_exist() -> None:

@@ -82,6 +82,16 @@ def test_zero_tip_force_at_every_update_step(update: float) -> None:
     assert float(result.dataset["feed"][-1]) == pytest.approx(0.072)
 
 
+def test_less_clearance_needs_less_field() -> None:
+    system = simulation("half-circle", paper_wire()).system
+    peaks = []
+    for clearance in (0.5, 0.4, 0.3, 0.2):
+        navigator = StableNavigator(system, demands=Demands(tip_clearance=clearance))
+        course = navigator.plan(observation(0.0), 0.072)
+        peaks.append(np.linalg.norm(course.flux_density, axis=1).max())
+    assert np.all(np.diff(peaks) <= 1e-3 * peaks[0])
+
+
 def test_constraints_hold_at_the_planned_feeds() -> None:
     navigator = StableNavigator(simulation("sinusoid", paper_wire()).system)
     model, room = navigator.model, 0.6

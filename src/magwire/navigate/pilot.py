@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from magwire.navigate.model import Memory, Model, View
 from magwire.navigate.navigator import NavigationError
-from magwire.navigate.programme import OFF_ROOM, Programme
+from magwire.navigate.programme import Programme
 
 Array = NDArray[np.float64]
 
@@ -32,7 +32,7 @@ SLIP = 0.2  # change of the tip's offset from one feed to the next that is a sli
 INERTIA = 0.015  # feed over which the field may follow what is asked for, in the wire's length
 TRIES = 12  # of a feed at which the wire is lost, each with a larger margin before it
 STIFFER = 1.15  # eigenvalue for a retry, over the one with which the wire was lost
-FIRM = 500.0
+FIRM = 500.0  # see Pilot.firm
 RELAXING = 0.95  # of that larger margin from one planned feed to the next
 
 
@@ -144,7 +144,7 @@ class Pilot:
             )
         slip = SLIP * view.radius
         if seen is None or view.distance <= max(
-            OFF_ROOM * self.programme.room(view) + slip, seen.distance + slip
+            self.programme.wider_room(view) + slip, seen.distance + slip
         ):
             view = self._improve(view, last.flux, moved)
         self._judge(view, where)
@@ -200,7 +200,7 @@ class Pilot:
         flux, room = norm(view.flux) / weak, programme.room(view)
         planned = norm(view.offset + (1.0 / weak - 1.0) * (view.offset_by_flux @ view.flux))
         missed = MISSED * view.radius
-        if planned > room + missed or view.distance > OFF_ROOM * room + missed:
+        if planned > room + missed or view.distance > programme.wider_room(view) + missed:
             raise NavigationError(
                 f"{where} no stable field was found that keeps the tip within {room * 1e3:.3g} mm "
                 f"of the centreline; with {flux * 1e3:.3g} mT it is {planned * 1e3:.3g} mm away."

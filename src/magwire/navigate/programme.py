@@ -27,6 +27,7 @@ STARTS = (0, 3 * SIDES, 3 * SIDES + 3)  # rows about the offset, the eigenvalue,
 MISSES: Array = -np.repeat(np.eye(3), (3 * SIDES, 3, 1), axis=0)
 PENALTY = 300.0  # price of missing a constraint: it is paid only where there is no other way
 OFF_ROOM = 1.3  # room for the tip in a field that is off, over the room in the field itself
+MOST_ROOM = 0.85  # of that, as a part of the way to the wall
 FREE = 1e30  # no bound
 
 
@@ -53,6 +54,11 @@ class Programme:
     def room(self, view: View) -> float:
         """How far from the centreline the tip may be [m]."""
         return (view.radius - self.keep_off) * (1.0 - self.demands.tip_clearance)
+
+    def wider_room(self, view: View) -> float:
+        """How far from the centreline the tip may be in a field that is off [m]."""
+        most = MOST_ROOM * (view.radius - self.keep_off)
+        return max(self.room(view), min(OFF_ROOM * self.room(view), most))
 
     def merit(self, view: View, before: Array, stiffness: float, margin: float) -> float:
         """What the programme minimises, at the field as it is."""
@@ -136,7 +142,8 @@ def constraints(programme: Programme, view: View, margin: float) -> tuple[Array,
     rows[:, 3:] = MISSES
     rows[: STARTS[1], :3] = (fields[:, None, None] * (NORMALS @ by_field)).reshape(-1, 3)
     offsets = offset + (fields[:, None] - 1.0) * (by_field @ b)
-    rooms = room * np.array([OFF_ROOM, 1.0, OFF_ROOM])
+    wider = programme.wider_room(view) / size
+    rooms = np.array([wider, room, wider])
     upper[: STARTS[1]] = (rooms[:, None] - offsets @ NORMALS.T).ravel()
     rows[STARTS[1] : STARTS[2], :3] = -fields[:, None] * by_eigen
     upper[STARTS[1] : STARTS[2]] = value + (fields - 1.0) * (by_eigen @ b) - margin / weight

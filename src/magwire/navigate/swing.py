@@ -30,7 +30,7 @@ MARGINAL = 1.15  # room for these places, over the room for the tip
 BOUND = 0.8  # of the tip's offset while the wire swings, in the lumen's radius
 OFF = 0.6  # part of the field's tolerance that is asked for while the wire swings
 SUPPORT = 20.0  # eigenvalue above which the wall must be holding the wire, in stability margins
-FIRM = 1.25  # field in which the wire arrives, over the least that holds it there
+PRESS = 1.25  # field in which the wire arrives, over the least that holds it there
 ROUND = 1e-9  # round-off of feeds [m]
 SPARSE = 0.02  # feed between the fields that a course must also be able to do with, in that length
 LENGTH = 0.02  # of feed for the swing, in the wire's length
@@ -116,7 +116,7 @@ class Swings:
         landings = [p for p in self._places(landing, COARSE, highest) if self.is_held(p.view)]
         found = []
         for place, aim in product(places, landings):
-            firm = replace(aim, memory=replace(aim.memory, flux=FIRM * aim.flux))
+            firm = replace(aim, memory=replace(aim.memory, flux=PRESS * aim.flux))
             rest = replace(firm, feed=firm.feed + LENGTH * length)
             largest = max(norm(place.flux), norm(firm.flux))
             if largest <= highest:
