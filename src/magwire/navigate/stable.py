@@ -196,11 +196,12 @@ class StableNavigator:
         then back from there.
         """
         scout, last = self._scout, knots[-1]
+        farthest = self._length - self.plan_every
         scout.forget()
         found: list[Knot] = []
         try:
             while not self._swings.is_held(last.view):
-                if last.feed > knots[-1].feed + SCOUT * self._length:
+                if last.feed > min(knots[-1].feed + SCOUT * self._length, farthest):
                     return []
                 _, last = scout.advance(last, last.feed + self.plan_every)
             scout.forget()

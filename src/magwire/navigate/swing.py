@@ -3,8 +3,9 @@
 Past a quarter turn a wire that only the guide touches is held against swinging by the field alone,
 and the field for that grows without bound as the tip turns by 180 degrees. A wire whose body rests
 on the wall needs much less. Between the two there is no path of stable equilibria in a moderate
-field: the wire has to swing. What is looked for here is a place from which it does so, into a given
-field a little farther on, with its tip within bounds all the way.
+field: the wire has to swing. What is looked for here are two fields, a little feed apart, from one
+to the other of which it does so with its tip within bounds all the way. Only trials with inertia can
+tell.
 """
 
 from __future__ import annotations
@@ -76,10 +77,8 @@ class Swings:
         highest
             Flux density [T] that the course must stay below.
         """
-        courses: list[tuple[float, list[Knot]]] = []
-        for k in range(len(held)):
-            courses += self._onto(free, held[k:], highest)
-        courses.sort(key=lambda course: course[0])
+        ways = [way for knot in held for way in self._onto(free, knot, highest)]
+        courses = sorted(ways, key=lambda way: way[0])
         found = next((course for _, course in courses if self._holds(course)), None)
         return None if found is None else self._refined(found)
 
@@ -104,10 +103,10 @@ class Swings:
                 yield [*course[:-3], place, *course[-2:]]
 
     def _onto(
-        self, free: Sequence[Knot], held: Sequence[Knot], highest: float
+        self, free: Sequence[Knot], landing: Knot, highest: float
     ) -> list[tuple[float, list[Knot]]]:
-        """Largest field, and course, of the ways onto the first of the held knots."""
-        landing, length = held[0], self._length
+        """Largest field, and course, of ways to swing to where a held knot is, or beside it."""
+        length = self._length
         starts = [k for k in free if k.feed <= landing.feed - LENGTH * length + ROUND]
         leads = [k for k in starts if k.feed <= starts[-1].feed - LEAD * length + ROUND]
         if not leads or leads[-1].view is None:
