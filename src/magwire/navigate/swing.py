@@ -4,8 +4,8 @@ Past a quarter turn a wire that only the guide touches is held against swinging 
 and the field for that grows without bound as the tip turns by 180 degrees. A wire whose body rests
 on the wall needs much less. Between the two there is no path of stable equilibria in a moderate
 field: the wire has to swing. What is looked for here are two fields, a little feed apart, from one
-to the other of which it does so with its tip within bounds all the way. Only trials with inertia can
-tell.
+to the other of which it does so with its tip within bounds all the way. Only trials with
+inertia can tell.
 """
 
 from __future__ import annotations
