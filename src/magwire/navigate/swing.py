@@ -130,7 +130,8 @@ class Swings:
         """Whether the wire goes along a course, and ends held, in all fields that may come."""
         weak = self.programme.demands.weakening
         plan = Schedule.along([(knot.feed, knot.flux / weak) for knot in course])
-        sparse = plan.resampled(SPARSE * self._length)
+        few = np.arange(0.0, (1.0 + SPARSE) * course[-1].feed, SPARSE * self._length)
+        sparse = Schedule(few, plan.at(few))
         off = OFF * (1.0 - weak)
         trials = (plan.scaled(1.0 - off), sparse, plan, plan.scaled(1.0 + off))
         return self._follows(course[-3], trials[0]) and all(
