@@ -101,3 +101,14 @@ def test_slowest_mode_is_found_from_a_guess_in_another_plane() -> None:
     after = steered.look()
     assert after is not None
     assert after.eigenvalue == pytest.approx(before.eigenvalue, rel=1e-6)
+
+
+def test_slopes_are_finite_where_a_field_moves_nothing() -> None:
+    """A straight wire in a field along it."""
+    system = simulation("half-circle", paper_wire()).system
+    model = Model(system, system.path)
+    assert model.feed_to(0.004)
+    view = model.look()
+    assert view is not None
+    assert np.all(np.isfinite(view.eigenvalue_by_flux))
+    assert view.eigenvalue_by_flux[0] > 0.0

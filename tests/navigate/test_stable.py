@@ -110,10 +110,10 @@ def test_it_looks_ahead_no_farther_than_the_end_of_the_run() -> None:
     navigator = StableNavigator(simulation("half-circle", paper_wire()).system)
     far = navigator.plan(replace(observation(0.0), goal=0.072), 0.02)
     near = navigator.plan(replace(observation(0.02), goal=0.025), 0.022)
-    assert far.feed[-1] == pytest.approx(0.03)
-    assert near.feed[-1] == pytest.approx(0.03)
+    assert far.feed[-1] == pytest.approx(0.035)
+    assert near.feed[-1] == pytest.approx(0.035)
     last = navigator.plan(replace(observation(0.025), goal=0.072), 0.06)
-    assert last.feed[-1] == pytest.approx(0.07)
+    assert last.feed[-1] == pytest.approx(0.072)
 
 
 def test_a_limit_on_the_field_is_named_with_the_place() -> None:

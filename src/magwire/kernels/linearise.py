@@ -18,6 +18,7 @@ SWEEPS = 60  # of inverse iteration, at most
 SHARE = 0.03  # of every direction in the first guess of a mode
 SETTLED = 1e-9  # relative change of the eigenvalue at which they end
 PROBE = 1e-5  # step along a sensitivity for the change of the stiffness, in wire lengths
+STIFF = 1.0  # least sensitivity [1/T] for that: a field along a straight wire moves nothing
 
 
 class Linear(NamedTuple):
@@ -159,7 +160,7 @@ def linearise(model, state, mouth, work, linear):
     mix(linear.mode, last)
     value = slowest_mode(work.band, rod, held, linear.mode, last)
     for axis in range(3):
-        size = 0.0
+        size = STIFF
         for r in range(FIRST, last):
             size = max(size, abs(linear.moves[axis, r]))
         probe = PROBE / size

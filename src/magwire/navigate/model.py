@@ -26,7 +26,7 @@ SAME = 1e-9  # feeds that differ by less are the same [m]
 GLANCE = 10  # steps between two looks at the tip while the wire moves
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class View:
     """A stable equilibrium to first order in the uniform flux density.
 
@@ -299,9 +299,12 @@ class Model:
 
 def across(direction: Array) -> Array:
     """Two unit vectors across a direction, shape (2, 3)."""
-    along = direction / np.linalg.norm(direction)
-    axis = np.zeros(3)
-    axis[np.argmin(np.abs(along))] = 1.0
-    first = np.cross(along, axis)
-    first /= np.linalg.norm(first)
-    return np.stack([first, np.cross(along, first)])
+    x, y, z = direction / np.linalg.norm(direction)
+    if abs(x) <= abs(y) and abs(x) <= abs(z):
+        first = np.array([0.0, z, -y])
+    elif abs(y) <= abs(z):
+        first = np.array([-z, 0.0, x])
+    else:
+        first = np.array([y, -x, 0.0])
+    u, v, w = first / np.linalg.norm(first)
+    return np.array([[u, v, w], [y * w - z * v, z * u - x * w, x * v - y * u]])

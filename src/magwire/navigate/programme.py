@@ -8,7 +8,8 @@ seen from there to first order.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import lru_cache
 
 import daqp
 import numpy as np
@@ -20,18 +21,16 @@ from magwire.navigate.model import View
 Array = NDArray[np.float64]
 
 SIDES = 16  # of the polygon around the circle in which the tip may be
+ANGLES = 2.0 * np.pi * np.arange(SIDES) / SIDES
+NORMALS: Array = np.stack([np.cos(ANGLES), np.sin(ANGLES)], axis=1)
+STARTS = (0, 3 * SIDES, 3 * SIDES + 3)  # rows about the offset, the eigenvalue, the field itself
+MISSES: Array = -np.repeat(np.eye(3), (3 * SIDES, 3, 1), axis=0)
 PENALTY = 300.0  # price of missing a constraint: it is paid only where there is no other way
 OFF_ROOM = 1.3  # room for the tip in a field that is off, over the room in the field itself
 FREE = 1e30  # no bound
 
 
-def polygon() -> Array:
-    """Unit normals of the polygon's sides, shape (SIDES, 2)."""
-    angles = 2.0 * np.pi * np.arange(SIDES) / SIDES
-    return np.stack([np.cos(angles), np.sin(angles)], axis=1)
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Programme:
     """Least field, and least change of it, that meets the demands to first order.
 
@@ -50,48 +49,17 @@ class Programme:
     demands: Demands
     unit: float
     keep_off: float
-    sides: Array = field(default_factory=polygon)
 
     def room(self, view: View) -> float:
         """How far from the centreline the tip may be [m]."""
         return (view.radius - self.keep_off) * (1.0 - self.demands.tip_clearance)
 
-    def constraints(self, view: View, margin: float) -> tuple[Array, Array, Array]:
-        """The linearised constraints, rows . change - missed <= upper.
-
-        Returns
-        -------
-        tuple
-            Rows, shape (m, 6), for the change of the field and for how far offset, eigenvalue and
-            field miss what is asked for; upper bounds, shape (m,); and which of the three misses a
-            row belongs to, shape (m,).
-        """
-        size, weak = view.radius, self.demands.weakening
-        b = view.flux / self.unit
-        offset, by_field = view.offset / size, view.offset_by_flux * (self.unit / size)
-        weight = max(view.eigenvalue, margin)
-        value, by_eigen = view.eigenvalue / weight, view.eigenvalue_by_flux * (self.unit / weight)
-        rows, upper = [], []
-        fields = (weak, 1.0, 2.0 - weak) if weak < 1.0 else (1.0,)
-        for part in fields:
-            more = part / weak - 1.0
-            room = self.room(view) / size * (1.0 if part == 1.0 else OFF_ROOM)
-            rows.append(self.sides @ by_field * (1.0 + more))
-            upper.append(room - self.sides @ (offset + more * (by_field @ b)))
-            rows.append(-by_eigen[None] * (1.0 + more))
-            upper.append(np.array([value + more * (by_eigen @ b) - margin / weight]))
-        largest, flux = self.demands.max_field * weak / self.unit, float(np.linalg.norm(b))
-        rows.append(b[None] / max(flux, 1e-9))
-        upper.append(np.array([min(largest, FREE) - flux]))
-        kind = np.array(([0] * SIDES + [1]) * len(fields) + [2])
-        return np.hstack([np.concatenate(rows), -np.eye(3)[kind]]), np.concatenate(upper), kind
-
     def merit(self, view: View, before: Array, stiffness: float, margin: float) -> float:
         """What the programme minimises, at the field as it is."""
-        _, upper, kind = self.constraints(view, margin)
-        missed = sum(max(0.0, -float(upper[kind == k].min())) for k in range(3))
+        _, upper = constraints(self, view, margin)
+        missed = np.maximum(0.0, -np.minimum.reduceat(upper, STARTS))
         b, change = view.flux / self.unit, (view.flux - before) / self.unit
-        return 0.5 * float(b @ b) + 0.5 * stiffness * float(change @ change) + PENALTY * missed
+        return 0.5 * float(b @ b + stiffness * change @ change) + PENALTY * float(missed.sum())
 
     def change(
         self, view: View, before: Array, stiffness: float, margin: float, bounds: Array
@@ -111,11 +79,10 @@ class Programme:
         bounds
             Smallest and largest change of each component [T], shape (2, 3).
         """
-        rows, upper, _ = self.constraints(view, margin)
+        rows, upper = constraints(self, view, margin)
         b, was = view.flux / self.unit, before / self.unit
-        weight = np.diag([1.0 + stiffness] * 3 + [1.0] * 3)
         return solve(
-            weight,
+            np.diag([1.0 + stiffness] * 3 + [1.0] * 3),
             np.concatenate([b + stiffness * (b - was), [PENALTY] * 3]),
             rows,
             (np.full(len(upper), -FREE), upper),
@@ -148,6 +115,36 @@ class Programme:
         )
 
 
+@lru_cache(maxsize=4)
+def constraints(programme: Programme, view: View, margin: float) -> tuple[Array, Array]:
+    """The linearised constraints, rows . (change, misses) <= upper.
+
+    Returns
+    -------
+    tuple
+        Rows, shape (m, 6), for the change of the field and for how far offset, eigenvalue and field
+        miss what is asked for; and upper bounds, shape (m,).
+    """
+    unit, size, weak = programme.unit, view.radius, programme.demands.weakening
+    b = view.flux / unit
+    offset, by_field = view.offset / size, view.offset_by_flux * (unit / size)
+    weight = max(view.eigenvalue, margin)
+    value, by_eigen = view.eigenvalue / weight, view.eigenvalue_by_flux * (unit / weight)
+    room, flux = programme.room(view) / size, float(np.linalg.norm(b))
+    fields = np.array([1.0, 1.0 / weak, (2.0 - weak) / weak])  # over the weakest
+    rows, upper = np.empty((len(MISSES), 6)), np.empty(len(MISSES))
+    rows[:, 3:] = MISSES
+    rows[: STARTS[1], :3] = (fields[:, None, None] * (NORMALS @ by_field)).reshape(-1, 3)
+    offsets = offset + (fields[:, None] - 1.0) * (by_field @ b)
+    rooms = room * np.array([OFF_ROOM, 1.0, OFF_ROOM])
+    upper[: STARTS[1]] = (rooms[:, None] - offsets @ NORMALS.T).ravel()
+    rows[STARTS[1] : STARTS[2], :3] = -fields[:, None] * by_eigen
+    upper[STARTS[1] : STARTS[2]] = value + (fields - 1.0) * (by_eigen @ b) - margin / weight
+    rows[STARTS[2], :3] = b / max(flux, 1e-9)
+    upper[STARTS[2]] = min(programme.demands.max_field * weak / unit, FREE) - flux
+    return rows, upper
+
+
 def solve(
     weight: Array,
     slope: Array,
@@ -158,11 +155,12 @@ def solve(
 ) -> Array | None:
     """Solve a programme whose first three unknowns are the change of the field, in units.
 
-    The others are slacks, which are not negative. Returns the change [T], or None.
+    The others are slacks, which are not negative. Returns the change [T], or None. The solver scales
+    the rows in place: it gets a copy.
     """
     slacks = len(slope) - 3
     low = np.concatenate([bounds[0], np.zeros(slacks), limits[0]])
     high = np.concatenate([bounds[1], np.full(slacks, 1e3), limits[1]])
     kinds = np.zeros(len(low), dtype=np.int32)
-    solution, _, flag, _ = daqp.solve(weight, slope, np.ascontiguousarray(rows), high, low, kinds)
+    solution, _, flag, _ = daqp.solve(weight, slope, rows.copy(), high, low, kinds)
     return solution[:3] * unit if flag >= 1 else None

@@ -25,9 +25,10 @@ from magwire.navigate.swing import Swings
 Array = NDArray[np.float64]
 
 REFERENCE = 100.0  # field of order one, in EI/(M L^2)
-AHEAD = 0.1  # feed that the plan runs ahead, in the wire's length
+AHEAD = 0.15  # feed that the plan runs ahead, in the wire's length
 SCOUT = 0.15  # feed beyond the plan's end in which the wall must come to hold the wire, in that
-GROWTH = 2.0  # of the field while the plan runs ahead, with which another course is looked for
+GROWTH = 2.0  # of the field over SPAN with which another course is looked for
+SPAN = 0.1  # feed, in that length
 CLOSE = 1e-9  # two feeds are the same [m]
 
 
@@ -80,13 +81,18 @@ class StableNavigator:
         self._take_up(observation.feed, back)
         end = until
         if not back and observation.goal is not None:
-            end = max(until, min(until + AHEAD * self._length, observation.goal))
+            end = min(self._full_steps(until + AHEAD * self._length), observation.goal)
         self._extend(end)
         short = until - self._knots[-1].feed
         if self._failure is not None and (short < -CLOSE if back else short > CLOSE):
             raise self._failure
         weak = self.demands.weakening
         return Schedule.along([(knot.feed, knot.flux / weak) for knot in self._knots])
+
+    def _full_steps(self, feed: float) -> float:
+        """The first feed at or past another that is full steps of the plan away."""
+        last = self._knots[-1].feed
+        return last + self.plan_every * float(np.ceil((feed - last) / self.plan_every - 1e-6))
 
     def expected_tip(self, feed: float) -> Array | None:
         """Where the tip should be at a feed [m], shape (3,) [m]; None between planned fields."""
@@ -154,17 +160,33 @@ class StableNavigator:
                 self._knots[-1:] = self._pilot.advance(last, feed)
             except NavigationError as failure:
                 if not self._swing():
-                    self._failure = failure
+                    self._failure = self._reason(failure, last, feed)
             else:
                 if self._grows():
                     self._swing()
+
+    def _reason(self, failure: NavigationError, last: Knot, feed: float) -> NavigationError:
+        """Why there is no field: the limit, if there would be one without."""
+        limit = self.demands.max_field
+        if not np.isfinite(limit):
+            return failure
+        self._scout.forget()
+        try:
+            _, knot = self._scout.advance(last, feed)
+        except NavigationError:
+            return failure
+        needed = norm(knot.flux) / self.demands.weakening
+        return NavigationError(
+            f"At {feed * 1e3:.4g} mm of feed the tip needs {needed * 1e3:.3g} mT; the limit is "
+            f"{limit * 1e3:.3g} mT."
+        )
 
     def _grows(self) -> bool:
         """Whether the field that holds the wire grows so fast that the wall had better do it."""
         last = self._knots[-1]
         if self._back or self._swings.is_held(last.view):
             return False
-        near = [k for k in self._knots if k.feed >= last.feed - AHEAD * self._length - CLOSE]
+        near = [k for k in self._knots if k.feed >= last.feed - SPAN * self._length - CLOSE]
         return norm(last.flux) > GROWTH * max(norm(near[0].flux), self._searched)
 
     def _swing(self) -> bool:
