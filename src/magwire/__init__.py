@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from magwire.navigate.demands import Demands as Demands
     from magwire.navigate.stable import StableNavigator as StableNavigator
     from magwire.navigate.tip import TipNavigator as TipNavigator
+    from magwire.planning import Prospect as Prospect
+    from magwire.planning import plan as plan
     from magwire.results import Result as Result
     from magwire.scenario import Scenario as Scenario
     from magwire.scenario import load as load_scenario
@@ -48,6 +50,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Lumen": ("magwire.lumen", "Lumen"),
     "MagwireError": ("magwire.errors", "MagwireError"),
     "Prescribed": ("magwire.navigate", "Prescribed"),
+    "Prospect": ("magwire.planning", "Prospect"),
     "Result": ("magwire.results", "Result"),
     "ResultError": ("magwire.errors", "ResultError"),
     "Scenario": ("magwire.scenario", "Scenario"),
@@ -61,6 +64,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Vessel": ("magwire.lumen", "Vessel"),
     "Wire": ("magwire.wire", "Wire"),
     "load_scenario": ("magwire.scenario", "load"),
+    "plan": ("magwire.planning", "plan"),
     "scenario_names": ("magwire.scenario", "names"),
 }
 
@@ -75,6 +79,7 @@ __all__ = [
     "Lumen",
     "MagwireError",
     "Prescribed",
+    "Prospect",
     "Result",
     "ResultError",
     "Scenario",
@@ -89,6 +94,7 @@ __all__ = [
     "Wire",
     "__version__",
     "load_scenario",
+    "plan",
     "scenario_names",
 ]
 
