@@ -20,7 +20,7 @@ from magwire.wire import Wire
 
 Array = NDArray[np.float64]
 
-PACE = 0.2  # feed between two planned fields, over the median radius of the way
+PACE = 0.2  # feed between two planned fields, over the lower quartile of the radii of the way
 FINEST = 5e-3  # that feed at most, over the wire's length
 SPEED = 0.01  # wire lengths in a second; there is no inertia
 PART = 0.25  # activation gap at most, over the clearance at the narrowest place
@@ -177,7 +177,7 @@ def _prospect(
         contact = Barrier(activation_gap=min(GAP, PART * room))
     goal = way.length - float(radii[-1])
     long = fitted(wire, goal)
-    every = min(FINEST * long.length, PACE * float(np.median(radii)))
+    every = min(FINEST * long.length, PACE * float(np.quantile(radii, 0.25)))
     return _travel(nothing, Simulation(long, lumen, contact=contact), demands, (goal, every))
 
 
