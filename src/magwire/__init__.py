@@ -29,6 +29,8 @@ if TYPE_CHECKING:
     from magwire.navigate.demands import Demands as Demands
     from magwire.navigate.stable import StableNavigator as StableNavigator
     from magwire.navigate.tip import TipNavigator as TipNavigator
+    from magwire.planning import Prospect as Prospect
+    from magwire.planning import plan as plan
     from magwire.results import Result as Result
     from magwire.scenario import Scenario as Scenario
     from magwire.scenario import load as load_scenario
@@ -51,6 +53,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "MagwireError": ("magwire.errors", "MagwireError"),
     "Outcome": ("magwire.many", "Outcome"),
     "Prescribed": ("magwire.navigate", "Prescribed"),
+    "Prospect": ("magwire.planning", "Prospect"),
     "Result": ("magwire.results", "Result"),
     "ResultError": ("magwire.errors", "ResultError"),
     "Scenario": ("magwire.scenario", "Scenario"),
@@ -64,6 +67,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Vessel": ("magwire.lumen", "Vessel"),
     "Wire": ("magwire.wire", "Wire"),
     "load_scenario": ("magwire.scenario", "load"),
+    "plan": ("magwire.planning", "plan"),
     "run_many": ("magwire.many", "run_many"),
     "scenario_names": ("magwire.scenario", "names"),
 }
@@ -80,6 +84,7 @@ __all__ = [
     "MagwireError",
     "Outcome",
     "Prescribed",
+    "Prospect",
     "Result",
     "ResultError",
     "Scenario",
@@ -94,6 +99,7 @@ __all__ = [
     "Wire",
     "__version__",
     "load_scenario",
+    "plan",
     "run_many",
     "scenario_names",
 ]

@@ -172,7 +172,8 @@ class Simulation:
                         writer.close("unstable", UNSTABLE.format(1e3 * record.feed))
                         return writer.result()
                 converged = march.step == march.steps
-                writer.close("complete" if converged else "not converged", march.message)
+                message = " ".join([*getattr(navigator, "notes", ()), march.message]).strip()
+                writer.close("complete" if converged else "not converged", message)
             except NavigationError as error:
                 writer.close("no field", str(error))
         return writer.result()

@@ -29,6 +29,7 @@ def lines(result: Result, *, steered: bool = False, passive: Result | None = Non
     """
     rows = {
         "status": result.status,
+        **({"tried again": result.message} if result.converged and result.message else {}),
         **_course(result),
         **_contact(result, passive),
         **(_steering(result) if steered else {}),

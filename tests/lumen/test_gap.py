@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -133,7 +135,7 @@ def test_two_branches_make_their_union_with_a_rounded_carina() -> None:
     sharp = Lumen((trunk, child))
     np.testing.assert_allclose(sharp.gap(points)[near], largest[near], rtol=0, atol=1e-12)
     width = 5e-4
-    rounded = Lumen((trunk, child), blend=width).gap(points)[near]
+    rounded = Lumen((trunk, replace(child, blend=width))).gap(points)[near]
     assert np.all(rounded >= largest[near] - 1e-12)
     assert np.all(rounded <= largest[near] + width / 6.0 + 1e-12)
     assert np.any(rounded > largest[near] + 0.1 * width)

@@ -102,9 +102,8 @@ def test_rounded_carina_is_smooth() -> None:
     lumen = Lumen(
         (
             Branch(np.array([[0.0, 0.0, 0.0], [0.05, 0.0, 0.0]]), np.array(2e-3)),
-            Branch(bent, np.array(1.5e-3), open_begin=False),
-        ),
-        blend=5e-4,
+            Branch(bent, np.array(1.5e-3), open_begin=False, blend=5e-4),
+        )
     )
     points = np.random.default_rng(5).uniform([0.03, -1e-3, -1e-3], [0.04, 4e-3, 1e-3], (300, 3))
     points = smooth(lumen, points)

@@ -302,7 +302,7 @@ FAULTS = (
         (*STABLE, "navigate.file=x.csv"),
         "Input navigate.file is not a key of [navigate] with method 'stable'; expected one of "
         "'method', 'update_every', 'plan_every', 'tip_clearance', 'stability_margin', "
-        "'field_tolerance', 'max_field', 'max_field_rate'.",
+        "'field_tolerance', 'max_field', 'max_field_rate', 'attempts'.",
     ),
     Fault(
         "clearance for nobody who steers",

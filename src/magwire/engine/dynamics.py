@@ -135,6 +135,26 @@ class March:
         self._plan.flux[first : first + len(flux_density)] = flux_density
         self._plan.flux[first + len(flux_density) :] = flux_density[-1]
 
+    def go_back(self, feed: float, multiple: int) -> None:
+        """Put a detour into the course: back to a feed [m] and on to the present one again.
+
+        Both ways take the same number of steps, a ``multiple`` of this many, none longer than the
+        longest of the course.
+        """
+        plan, here = self._plan, self.step
+        now, back = plan.feed[here], feed / self.system.wire.length
+        pace = np.abs(np.diff(plan.feed)).max()
+        count = multiple * max(1, int(np.ceil((now - back) / (pace * multiple) - 1e-9)))
+        way = np.linspace(now, back, count + 1)
+        detour = np.concatenate([way[1:], way[-2::-1]])
+        still = np.full(2 * count, plan.twist[here])
+        self._plan = plan._replace(
+            feed=np.insert(plan.feed, here + 1, detour),
+            twist=np.insert(plan.twist, here + 1, still),
+            flux=np.insert(plan.flux, here + 1, np.tile(plan.flux[here], (2 * count, 1)), axis=0),
+        )
+        self.steps += 2 * count
+
     def advance(self, steps: int) -> bool:
         """Do at most this many more time steps; whether all of them converged."""
         last = min(self.step + steps, self.steps)

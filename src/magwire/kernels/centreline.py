@@ -11,11 +11,12 @@ from magwire.kernels._jit import kernel
 from magwire.kernels.vectors import combine, dot, norm, scale
 
 # Columns of LumenArrays.branches.
-SPACING, FIRST, PIECES, BEGIN, END = 0, 1, 2, 3, 13
+SPACING, FIRST, PIECES, BEGIN, END, BLEND = 0, 1, 2, 3, 13, 23
 # Columns of an end, counted from BEGIN or END: its point, outward tangent, radius, outward slope
-# of the radius, sqrt(1 - slope^2), and whether it is open.
+# of the radius, sqrt(1 - slope^2), and whether it is open. BLEND is the width over which the branch
+# is blended with those before it.
 END_POINT, END_TANGENT, END_RADIUS, END_SLOPE, END_COSINE, END_OPEN = 0, 3, 6, 7, 8, 9
-COLUMNS = 23
+COLUMNS = 24
 
 ITERATIONS = 60  # Newton steps at most: a safeguard, three to five are taken
 TOLERANCE = 1e-5  # last step over the radius: the one after it would be below round-off
@@ -32,7 +33,7 @@ class LumenArrays(NamedTuple):
         Of the cubic pieces of all branches, shape [pieces, 4 powers of the distance from the
         piece's start, 4 components x y z R].
     branches
-        One row per branch, shape [branches, 23]; columns as named at the top of this module.
+        One row per branch, shape [branches, 24]; columns as named at the top of this module.
     cells
         One number per voxel, shape [nx * ny * nz]: the index of its first seed, or -k for a voxel
         without seeds whose nearest voxel with seeds is k voxels away.
@@ -47,8 +48,6 @@ class LumenArrays(NamedTuple):
         Number of voxels; zero in open space.
     margin
         Smallest radius; no voxel that is nearer to a wall from outside is without seeds.
-    blend
-        Width over which the gaps of two branches are blended into each other.
     """
 
     coefficients: NDArray
@@ -64,7 +63,6 @@ class LumenArrays(NamedTuple):
     ny: int
     nz: int
     margin: float
-    blend: float
 
 
 @kernel

@@ -23,6 +23,7 @@ from numpy import int32
 from magwire.kernels._jit import kernel
 from magwire.kernels.centreline import (
     BEGIN,
+    BLEND,
     END,
     END_OPEN,
     END_RADIUS,
@@ -159,7 +160,7 @@ def gap_value(lumen, x, y, z):
         index += 1
         if last or seed_at(lumen, index, offset)[1] != here:
             tubes = new_safe == new_g and safe == g
-            g, weight, _ = blend(new_g, g, lumen.blend)
+            g, weight, _ = blend(new_g, g, lumen.branches[here, BLEND])
             if weight >= 0.5:
                 s, branch = new_s, here
             safe = g if tubes else max(safe, new_safe)
@@ -252,7 +253,7 @@ def gap_jet(lumen, x, y, z):
         index += 1
         if last or seed_at(lumen, index, offset)[1] != here:
             tubes = new_safe == new_g and safe == g
-            g, weight, curvature = blend(new_g, g, lumen.blend)
+            g, weight, curvature = blend(new_g, g, lumen.branches[here, BLEND])
             if weight > 0.0 and new_g > -inf:
                 new_n, new_h = wall_jet(lumen, here, new_g, new_side, new_frame, x, y, z)
                 n, h = blend_jets(weight, curvature, new_n, new_h, n, h)

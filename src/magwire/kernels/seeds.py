@@ -71,7 +71,7 @@ def ridges(samples, corner, cell, shape, slack, blend, best, near, state, out):
     samples, corner, cell, shape, slack, best, near
         As of ``deepest``.
     blend
-        Width over which branches blend.
+        How far below the best one a branch may be and still be felt where branches blend.
     state
         Scratch, shape [voxels, 4]: last sample seen (-1 at first), its value, whether it climbs,
         arc parameter of the last seed.

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from magwire.errors import InputError, array
+from magwire.errors import InputError, array, nonnegative
 from magwire.lumen.curve import Curve, fit
 
 Array = NDArray[np.float64]
@@ -48,6 +48,8 @@ class Branch:
         follow from the points.
     open_begin, open_end
         Whether the ends are open. An open end has no cap: past its plane there is no wall.
+    blend
+        Width over which the wall is rounded into those of the branches before it in a lumen [m].
 
     Raises
     ------
@@ -66,6 +68,7 @@ class Branch:
     end_tangent: Array | None = field(default=None, kw_only=True)
     open_begin: bool = field(default=True, kw_only=True)
     open_end: bool = field(default=True, kw_only=True)
+    blend: float = field(default=0.0, kw_only=True)
 
     def __post_init__(self) -> None:
         points = _points(self.points)
@@ -75,6 +78,7 @@ class Branch:
         set_field(self, "radius", _fixed(radius))
         set_field(self, "begin_tangent", _unit("begin_tangent", self.begin_tangent))
         set_field(self, "end_tangent", _unit("end_tangent", self.end_tangent))
+        set_field(self, "blend", nonnegative("Branch", "blend", self.blend, "m"))
         self._check_radius()
         self._check_bends()
 
@@ -145,6 +149,7 @@ class Branch:
             end_tangent=self.end_tangent,
             open_begin=self.open_begin,
             open_end=self.open_end,
+            blend=self.blend,
         )
 
     def _check_radius(self) -> None:

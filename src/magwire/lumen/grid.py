@@ -11,6 +11,7 @@ from scipy.ndimage import distance_transform_cdt
 
 from magwire.kernels.centreline import (
     BEGIN,
+    BLEND,
     COLUMNS,
     END,
     END_COSINE,
@@ -32,6 +33,7 @@ Array = NDArray[np.float64]
 
 VOXELS = 2_000_000  # at most; larger lumens get larger voxels
 FINENESS = 0.5  # edge length of a voxel over the smallest radius
+BLENDED = 2.0  # how far below the deepest branch one is still felt, in blends: three may blend
 
 
 class _Voxels(NamedTuple):
@@ -48,11 +50,11 @@ NOWHERE = _Voxels(np.zeros(3), 1.0, np.zeros(3, dtype=np.int64), 0.0, 0.0)
 NO_SEEDS = np.zeros((0, 3))
 
 
-def build(branches: Sequence[Branch], blend: float) -> LumenArrays:
+def build(branches: Sequence[Branch]) -> LumenArrays:
     """Arrays of a lumen for the kernels, in metres."""
     table = _table(branches)
     if not branches:
-        return _pack(np.zeros((0, 4, 4)), table, blend)
+        return _pack(np.zeros((0, 4, 4)), table)
     samples = np.concatenate([_samples(b, i) for i, b in enumerate(branches)])
     mouths = np.concatenate(
         [_mouth(row, i, end) for i, row in enumerate(table) for end in (BEGIN, END)]
@@ -65,11 +67,12 @@ def build(branches: Sequence[Branch], blend: float) -> LumenArrays:
     near[at_mouths[:, 0].astype(np.int64)] = 2
     place = (voxels.corner, voxels.cell, voxels.shape, voxels.slack)
     deepest(samples, *place, best, near)
-    found = _ridges(samples, place, blend, best, near)
+    felt = BLENDED * float(table[:, BLEND].max())
+    found = _ridges(samples, place, felt, best, near)
     seeds = np.column_stack([found[:, 0], samples[found[:, 1]][:, [5, 4]]])
     seeds = np.concatenate([seeds, at_mouths])
     coefficients = np.concatenate([b.curve.coefficients for b in branches])
-    return _pack(coefficients, table, blend, voxels, _thin(seeds, float(samples[:, 3].min())))
+    return _pack(coefficients, table, voxels, _thin(seeds, float(samples[:, 3].min())))
 
 
 def _table(branches: Sequence[Branch]) -> Array:
@@ -79,6 +82,7 @@ def _table(branches: Sequence[Branch]) -> Array:
     for row, branch in zip(table, branches, strict=True):
         curve = branch.curve
         row[SPACING], row[FIRST], row[PIECES] = curve.spacing, first, len(curve.coefficients)
+        row[BLEND] = branch.blend
         first += len(curve.coefficients)
         ends = np.array([0.0, curve.length])
         points, slopes = curve.at(ends), curve.at(ends, 1)
@@ -184,7 +188,6 @@ def _thin(seeds: Array, narrowest: float) -> Array:
 def _pack(
     coefficients: Array,
     table: Array,
-    blend: float,
     voxels: _Voxels = NOWHERE,
     seeds: Array = NO_SEEDS,
 ) -> LumenArrays:
@@ -215,7 +218,6 @@ def _pack(
         ny=ny,
         nz=nz,
         margin=voxels.margin,
-        blend=blend,
     )
 
 
@@ -237,7 +239,7 @@ def scaled(arrays: LumenArrays, length_scale: float) -> LumenArrays:
     """The same lumen in units of ``length_scale`` [m]."""
     powers = length_scale ** np.arange(-1.0, 3.0)
     branches = arrays.branches.copy()
-    branches[:, SPACING] /= length_scale
+    branches[:, [SPACING, BLEND]] /= length_scale
     for at in (BEGIN, END):
         branches[:, at + END_POINT : at + END_POINT + 3] /= length_scale
         branches[:, at + END_RADIUS] /= length_scale
@@ -250,5 +252,4 @@ def scaled(arrays: LumenArrays, length_scale: float) -> LumenArrays:
         z0=arrays.z0 / length_scale,
         cell=arrays.cell / length_scale,
         margin=arrays.margin / length_scale,
-        blend=arrays.blend / length_scale,
     )

@@ -19,7 +19,7 @@ from magwire.kernels.gap import gap_many
 from magwire.lumen import shapes
 from magwire.lumen.branch import Bend, Branch
 from magwire.lumen.grid import build, scaled
-from magwire.lumen.tree import BLEND, join
+from magwire.lumen.tree import join
 
 if TYPE_CHECKING:
     from magwire.lumen.vessel import Spot
@@ -36,8 +36,6 @@ class Lumen:
     ----------
     branches
         The first one starts at the entrance. None at all is open space.
-    blend
-        Width over which the walls of two branches are rounded into each other [m].
     paths
         Of a tree, the centrelines from the entrance to its outlets by their names. ``Lumen.tree``
         makes branches and paths.
@@ -52,7 +50,6 @@ class Lumen:
     """
 
     branches: tuple[Branch, ...]
-    blend: float = field(default=0.0, kw_only=True)
     paths: Mapping[str, Branch] = field(default_factory=dict, kw_only=True)
     target: str | None = field(default=None, kw_only=True)
 
@@ -70,7 +67,6 @@ class Lumen:
                     f"{type(branch).__name__}."
                 )
         object.__setattr__(self, "branches", tuple(branches))
-        object.__setattr__(self, "blend", nonnegative("Lumen", "blend", self.blend, "m"))
         object.__setattr__(self, "paths", MappingProxyType(dict(self.paths)))
         if self.target is None and self.paths:
             object.__setattr__(self, "target", self.outlets[0])
@@ -217,8 +213,8 @@ class Lumen:
         target
             Name of the outlet to go to; the first one if left out. It does not change the wall.
         blend
-            Width over which the branches are rounded into each other [m]; a fifth of the smallest
-            radius if left out.
+            Width over which branches are rounded into each other [m]; at each junction a fifth of
+            the smallest radius there if left out.
 
         Raises
         ------
@@ -242,11 +238,10 @@ class Lumen:
         (P-10) of the theory pages.
         """
         lines = _lines(branches)
-        radii = [line.curve.at(line.curve.knots())[:, 3].min() for line in lines.values()]
-        width = BLEND * float(min(radii)) if blend is None else blend
-        width = nonnegative("Lumen.tree", "blend", width, "m")
-        walls, paths = join(lines, width)
-        return cls(walls, blend=width, paths=paths, target=target)
+        if blend is not None:
+            nonnegative("Lumen.tree", "blend", blend, "m")
+        walls, paths = join(lines, blend)
+        return cls(walls, paths=paths, target=target)
 
     @classmethod
     def read(
@@ -448,7 +443,7 @@ class Lumen:
     @cached_property
     def _arrays(self) -> LumenArrays:
         """Arrays in metres, built on first use."""
-        return build(self.branches, self.blend)
+        return build(self.branches)
 
     @cached_property
     def _samples(self) -> tuple[KDTree, Array]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import ceil, degrees, tan
 from typing import NamedTuple
@@ -19,7 +19,8 @@ from magwire.lumen.curve import Curve
 
 Array = NDArray[np.float64]
 
-BLEND = 0.2  # default width of the blend, over the smallest radius of the tree
+BLEND = 0.2  # default width of the blend, over the smallest radius at the junction
+JUNCTION = 2.0  # length of a branch that belongs to its junction, over its radius there
 SHARED = 0.01  # distance at which two centrelines stop being one, over the radius
 WIDER = 1.05  # largest radius of a branch where it leaves, over its parent's
 RUN_IN = 1.0  # length over which a branch takes on its radius, at least, over the radius
@@ -73,7 +74,7 @@ def sampled(curve: Curve) -> Array:
     return np.linspace(0.0, curve.length, count + 1)
 
 
-def join(lines: Mapping[str, Branch], width: float) -> Tree:
+def join(lines: Mapping[str, Branch], width: float | None) -> Tree:
     """The tree of tubes that each start at the entrance or in a tube before them.
 
     Parameters
@@ -82,7 +83,7 @@ def join(lines: Mapping[str, Branch], width: float) -> Tree:
         Tubes by the names of their outlets. The first one starts at the entrance; the wall of each
         further one counts from where it leaves those before it.
     width
-        Width over which branches blend [m].
+        Width over which branches blend [m]; if None, by the radius at each junction.
     """
     names = list(lines)
     first = lines[names[0]]
@@ -96,7 +97,7 @@ def join(lines: Mapping[str, Branch], width: float) -> Tree:
 
 
 def _attach(
-    name: str, line: Branch, walls: list[Branch], paths: dict[str, Branch], width: float
+    name: str, line: Branch, walls: list[Branch], paths: dict[str, Branch], width: float | None
 ) -> tuple[Branch, Branch]:
     """Wall and path of one more branch."""
     ways = [_Trace(other, path.curve) for other, path in paths.items()]
@@ -105,13 +106,17 @@ def _attach(
     if np.linalg.norm(line.entrance - first.entrance) <= near:
         start = _leaves(name, line, ways)
         if start < MOUTH * float(line.radius[0]):  # its cap would stand in the entrance
-            return line, line
+            return replace(
+                line, blend=BLEND * float(line.radius[0]) if width is None else width
+            ), line
         path, arcs = line, sampled(line.curve)
         arcs = np.append(start, arcs[arcs > start + 0.5 * arcs[1]])
     else:
         path, arcs = _path(name, line, ways, paths), sampled(line.curve)
     balls = line.curve.at(arcs)
     others = [_Trace("", wall.curve) for wall in walls]
+    if width is None:
+        width = BLEND * float(balls[arcs - arcs[0] <= JUNCTION * balls[0, 3], 3].min())
     radius = _run_in(name, arcs - arcs[0], balls, others, width)
     begin, end = line.curve.at(arcs[[0, -1]], 1)[:, :3]
     wall = Branch(
@@ -121,6 +126,7 @@ def _attach(
         end_tangent=end,
         open_begin=False,
         open_end=line.open_end,
+        blend=width,
     )
     return wall, path
 

@@ -237,7 +237,9 @@ class Model:
         length = self.system.wire.length
         tip = self._state.q[-1, :3]
         _, arc, branch, _ = gap_value(self._tube, *tip)
-        curve = self.path.branches[branch].curve
+        if branch < 0:  # far off the path, as in another branch
+            arc = float(self.path.locate(tip[None] * length)[0][0]) / length
+        curve = self.path.branches[0].curve
         where = np.array([arc * length])
         centre, along = curve.at(where)[0], curve.at(where, 1)[0, :3]
         axes = across(along)

@@ -60,7 +60,6 @@ class StableNavigator:
         demands: Demands | None = None,
         plan_every: float | None = None,
     ) -> None:
-        self.demands = Demands() if demands is None else demands
         path = system.path if path is None else path
         self._length = system.wire.length
         if len(path.branches) != 1:
@@ -71,15 +70,7 @@ class StableNavigator:
         length = 5e-3 * system.wire.length if plan_every is None else plan_every
         self.plan_every = positive("StableNavigator", "plan_every", length, "m")
         self.model = Model(system, path)
-        programme = Programme(
-            self.demands,
-            REFERENCE * system.scales.flux_density,
-            system.wire.radius if system.contact.wall == "surface" else 0.0,
-        )
-        unlimited = replace(programme, demands=replace(self.demands, max_field=float("inf")))
-        self._pilot = Pilot(self.model, programme)
-        self._scout = Pilot(self.model, unlimited, firm=float("inf"))
-        self._swings = Swings(self.model, programme)
+        self._keep_to(Demands() if demands is None else demands)
         self._begin(Knot(0.0, self.model.remember(), None), back=False)
 
     def plan(self, observation: Observation, until: float) -> Schedule:
@@ -111,6 +102,29 @@ class StableNavigator:
         self.model.return_to(knot.memory)
         self.model.settle(knot.flux / self.demands.weakening)
         return self.model.expected_tip(feed)
+
+    @property
+    def knot(self) -> Knot:
+        """The planned field next behind the wire, from which the plan can be resumed."""
+        return self._knots[0]
+
+    def resume(self, knot: Knot, demands: Demands) -> None:
+        """Plan anew from a knot that was planned before, and keep to other demands from there."""
+        self._keep_to(demands)
+        self._begin(knot, back=False)
+
+    def _keep_to(self, demands: Demands) -> None:
+        """Plan fields that meet these demands from now on."""
+        self.demands, system = demands, self.model.system
+        programme = Programme(
+            demands,
+            REFERENCE * system.scales.flux_density,
+            system.wire.radius if system.contact.wall == "surface" else 0.0,
+        )
+        unlimited = replace(programme, demands=replace(demands, max_field=float("inf")))
+        self._pilot = Pilot(self.model, programme)
+        self._scout = Pilot(self.model, unlimited, firm=float("inf"))
+        self._swings = Swings(self.model, programme)
 
     def _begin(self, knot: Knot, back: bool) -> None:
         """Plan anew from a knot on."""

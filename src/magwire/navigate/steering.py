@@ -11,9 +11,24 @@ from numpy.typing import NDArray
 
 from magwire.engine.dynamics import March
 from magwire.engine.record import Record
-from magwire.navigate.navigator import Navigator, Observation
+from magwire.navigate.navigator import NavigationError, Navigator, Observation
 
 Array = NDArray[np.float64]
+
+
+@runtime_checkable
+class Persistent(Protocol):
+    """A navigator that may go back and try again where it found no field."""
+
+    def go_back(self, seen: Observation, failure: NavigationError) -> float:
+        """The feed to go back to [m].
+
+        Raises
+        ------
+        NavigationError
+            If it gives up.
+        """
+        ...
 
 
 @runtime_checkable
@@ -59,7 +74,14 @@ def steered_records(
             feeds = march.feeds(march.step + update)
             speed = float(feeds[-1] - seen.feed) / (len(feeds) * march.time_step)
             seen = replace(seen, goal=goal, speed=speed)
-            march.steer(navigator.plan(seen, float(feeds[-1])).at(feeds))
+            try:
+                schedule = navigator.plan(seen, float(feeds[-1]))
+            except NavigationError as failure:
+                if not isinstance(navigator, Persistent):
+                    raise
+                march.go_back(navigator.go_back(seen, failure), update)
+                continue
+            march.steer(schedule.at(feeds))
         step = min(every - march.step % every, update - march.step % update)
         converged = march.advance(step)
         if march.step % update == 0 or march.step == march.steps:

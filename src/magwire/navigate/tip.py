@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from magwire.engine.system import System
-from magwire.errors import positive
+from magwire.errors import positive, whole
 from magwire.navigate.demands import Demands
 from magwire.navigate.navigator import Navigator
+from magwire.navigate.persistent import ATTEMPTS, persistent
 from magwire.navigate.stable import StableNavigator
 
 
@@ -26,6 +27,8 @@ class TipNavigator:
         Feed between two observations of the wire [m].
     plan_every
         Feed between two planned fields [m]; half a percent of the wire if left out.
+    attempts
+        In a tree, how often it tries in one place, with other demands after the first time.
 
     Raises
     ------
@@ -36,12 +39,15 @@ class TipNavigator:
     demands: Demands = field(default_factory=Demands)
     update_every: float = 5e-4
     plan_every: float | None = None
+    attempts: int = ATTEMPTS
 
     def __post_init__(self) -> None:
         positive("TipNavigator", "update_every", self.update_every, "m")
+        whole("TipNavigator", "attempts", self.attempts, minimum=1)
         if self.plan_every is not None:
             positive("TipNavigator", "plan_every", self.plan_every, "m")
 
     def start(self, system: System) -> Navigator:
         """The navigator of one run; see ``Steering.start``."""
-        return StableNavigator(system, demands=self.demands, plan_every=self.plan_every)
+        plain = StableNavigator(system, demands=self.demands, plan_every=self.plan_every)
+        return persistent(plain, self.attempts)

@@ -106,7 +106,7 @@ class Result:
 
     @property
     def message(self) -> str:
-        """Why it ended so; "" for a complete run."""
+        """Why it ended so; of a complete run, what was tried more than once, or ""."""
         return str(self.dataset.attrs["message"])
 
     @property

@@ -71,10 +71,12 @@ class StableSteering(ModelSteering):
     field_tolerance: Tolerance = 0.05
     max_field: FieldLimit | None = None
     max_field_rate: FieldRate | None = None
+    attempts: Annotated[int, Whole(1, 4)] = 4
 
     def build(self, simulation: Simulation) -> Navigator | None:
         """The navigator of one run, as yet without a memory."""
         from magwire.navigate.demands import Demands
+        from magwire.navigate.persistent import persistent
         from magwire.navigate.stable import StableNavigator
 
         limits = {"max_field": self.max_field, "max_field_rate": self.max_field_rate}
@@ -84,7 +86,8 @@ class StableSteering(ModelSteering):
             field_tolerance=self.field_tolerance,
             **{name: limit for name, limit in limits.items() if limit is not None},
         )
-        return StableNavigator(simulation.system, demands=demands, plan_every=self.plan_every)
+        plain = StableNavigator(simulation.system, demands=demands, plan_every=self.plan_every)
+        return persistent(plain, self.attempts)
 
 
 class NewtonSteering(ModelSteering):

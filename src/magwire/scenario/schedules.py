@@ -72,7 +72,7 @@ def write_schedule(schedule: Schedule, path: str | Path) -> Path:
 
 
 def schedule_of(result: Result) -> Schedule:
-    """The field that steered a run, at the feeds that were reached for the first time.
+    """The field that steered a run to its farthest feed, of what was tried again the last try.
 
     Parameters
     ----------
@@ -88,14 +88,16 @@ def schedule_of(result: Result) -> Schedule:
     fed = result.feed
     if fed.size == 0:
         raise InputError("Input result of schedule_of must hold at least one record; received 0.")
-    first = np.append(True, fed[1:] > np.maximum.accumulate(fed)[:-1])
-    flux = result.field[first]
+    there = fed[: int(np.argmax(fed)) + 1]
+    last = np.append(there[:-1] < np.minimum.accumulate(there[:0:-1])[::-1], True)
+    course = np.flatnonzero(last)
+    flux = result.field[course]
     if result.scenario:
         from magwire.scenario.reader import parse
 
         own = parse(result.scenario, source="of the result").field.build()
-        flux = flux - own.at(result.position[first, -1])[0]
-    return Schedule(fed[first], flux)
+        flux = flux - own.at(result.position[course, -1])[0]
+    return Schedule(fed[course], flux)
 
 
 def replayed(

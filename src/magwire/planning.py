@@ -1,0 +1,210 @@
+"""To which outlets a wire gets, what it takes to get there, and what keeps it from the others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magwire.contact import Barrier
+from magwire.engine.feed import Feed
+from magwire.errors import InputError
+from magwire.lumen import Lumen
+from magwire.lumen.branch import Bend
+from magwire.navigate.demands import Demands
+from magwire.navigate.tip import TipNavigator
+from magwire.simulation import Simulation
+from magwire.wire import Wire
+
+Array = NDArray[np.float64]
+
+PACE = 0.2  # feed between two planned fields, over the lower quartile of the radii of the way
+FINEST = 5e-3  # that feed at most, over the wire's length
+SPEED = 0.01  # wire lengths in a second; there is no inertia
+PART = 0.25  # activation gap at most, over the clearance at the narrowest place
+GAP = 1e-4  # activation gap at most [m]
+ATTEMPTS = 3  # in one place
+
+
+@dataclass(frozen=True)
+class Prospect:
+    """What to expect on the way to an outlet.
+
+    Attributes
+    ----------
+    outlet
+        Its name.
+    reached
+        Whether the wire gets there.
+    length, fed
+        Of the way, and how far the wire came [m].
+    narrowest, narrowest_at
+        Smallest radius on the way and the arc parameter where it is [m].
+    bend
+        Tightest bend on the way.
+    peak_field
+        Largest flux density [T].
+    tip_force, wall_force
+        Largest force of the wall on the tip, and on the whole wire, summed over its nodes [N].
+    clearance
+        Smallest clearance, also midway between the nodes [m]; NaN if it did not set out.
+    reason
+        Why it does not get there; of an outlet that is reached, what was tried again, or "".
+    feed, flux_density, force
+        The same along the way: feed [m], flux density [T] and force on the whole wire [N],
+        shapes (n,).
+    """
+
+    outlet: str
+    reached: bool
+    length: float
+    fed: float
+    narrowest: float
+    narrowest_at: float
+    bend: Bend
+    peak_field: float
+    tip_force: float
+    wall_force: float
+    clearance: float
+    reason: str
+    feed: Array = field(repr=False)
+    flux_density: Array = field(repr=False)
+    force: Array = field(repr=False)
+
+
+def plan(
+    lumen: Lumen,
+    wire: Wire,
+    *,
+    demands: Demands | None = None,
+    contact: Barrier | None = None,
+    watch: Callable[[str], None] | None = None,
+) -> list[Prospect]:
+    """Steer a wire to every outlet of a lumen, by equilibria (P-16, P-22).
+
+    Parameters
+    ----------
+    lumen
+        The lumen; one without named outlets has one, "outlet".
+    wire
+        The wire. If it is too short for the way to an outlet, its proximal section is made longer.
+    demands
+        What the field must keep to, such as its largest value.
+    contact
+        The wall's barrier; one whose activation gap fits the narrowest place if left out.
+    watch
+        Called with the name of each outlet before it is tried.
+
+    Returns
+    -------
+    list of Prospect
+        One for each outlet.
+
+    Raises
+    ------
+    InputError
+        If the wire has no magnetisation, or there is no lumen.
+    """
+    if not lumen.branches:
+        raise InputError("Input lumen of plan must have at least one branch; received open space.")
+    if not wire.moment_per_length > 0.0:
+        raise InputError("Input wire of plan must be magnetised; received none.")
+    found = []
+    for name in lumen.outlets or ("outlet",):
+        if watch is not None:
+            watch(name)
+        there = replace(lumen, target=name) if lumen.outlets else lumen
+        found.append(
+            _prospect(name, there, wire, Demands() if demands is None else demands, contact)
+        )
+    return found
+
+
+def fitted(wire: Wire, length: float) -> Wire:
+    """The wire, or if it is too short, the wire with a longer proximal section, on the same edges.
+
+    Parameters
+    ----------
+    wire
+        The wire.
+    length
+        What it has to have at least [m].
+    """
+    if wire.length >= length:
+        return wire
+    first = wire.sections[0]
+    count = int(np.ceil(length / wire.edge_length - 1e-9))
+    grown = replace(first, length=first.length + count * wire.edge_length - wire.length)
+    return Wire((grown, *wire.sections[1:]), count + 1)
+
+
+def _prospect(
+    name: str, lumen: Lumen, wire: Wire, demands: Demands, contact: Barrier | None
+) -> Prospect:
+    """What to expect on the way to the lumen's target."""
+    way = lumen.path().branches[0]
+    knots = way.curve.knots()
+    radii = way.curve.at(knots)[:, 3]
+    thin = int(np.argmin(radii))
+    none = np.zeros(0)
+    nothing = Prospect(
+        outlet=name,
+        reached=False,
+        length=way.length,
+        fed=0.0,
+        narrowest=float(radii[thin]),
+        narrowest_at=float(knots[thin]),
+        bend=way.bend_radius(),
+        peak_field=0.0,
+        tip_force=0.0,
+        wall_force=0.0,
+        clearance=float("nan"),
+        reason="",
+        feed=none,
+        flux_density=none,
+        force=none,
+    )
+    room = nothing.narrowest - (wire.radius if contact is None or contact.wall == "surface" else 0)
+    if room <= 0.0:
+        return replace(
+            nothing,
+            reason=f"The wire is {2e3 * wire.radius:.4g} mm wide, the lumen "
+            f"{2e3 * nothing.narrowest:.4g} mm at {1e3 * nothing.narrowest_at:.4g} mm.",
+        )
+    if contact is None:
+        contact = Barrier(activation_gap=min(GAP, PART * room))
+    goal = way.length - float(radii[-1])
+    long = fitted(wire, goal)
+    every = min(FINEST * long.length, PACE * float(np.quantile(radii, 0.25)))
+    return _travel(nothing, Simulation(long, lumen, contact=contact), demands, (goal, every))
+
+
+def _travel(
+    nothing: Prospect, simulation: Simulation, demands: Demands, course: tuple[float, float]
+) -> Prospect:
+    """Steer the wire there, by equilibria: what it takes."""
+    goal, every = course
+    feed = Feed(SPEED * simulation.system.wire.length, goal)
+    result = simulation.run(
+        feed,
+        TipNavigator(demands, update_every=every, plan_every=every, attempts=ATTEMPTS),
+        motion="quasi-static",
+        record_every=every,
+    )
+    flux = np.linalg.norm(result.field, axis=1)
+    pushes = np.linalg.norm(result.dataset["contact_force"].values, axis=2).sum(axis=1)
+    return replace(
+        nothing,
+        reached=result.status == "complete",
+        fed=float(result.feed.max()),
+        peak_field=float(flux.max()),
+        tip_force=result.max_tip_force,
+        wall_force=float(pushes.max()),
+        clearance=result.smallest_clearance,
+        reason=result.message,
+        feed=result.feed,
+        flux_density=flux,
+        force=pushes,
+    )

@@ -1,0 +1,133 @@
+"""The map of a tree: which field each of its parts takes, and which parts are not reached."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from mpl_toolkits.mplot3d.art3d import Line3DCollection
+from numpy.typing import NDArray
+
+from magwire.plot import shapes, style
+
+Array = NDArray[np.float64]
+HEIGHT = 120.0
+"""Height of the figure [mm]."""
+
+
+def draw(
+    tubes: Mapping[str, tuple[Array, Array]], fields: Mapping[str, tuple[Array, Array]]
+) -> Figure:
+    """Draw the tree, coloured by the field that it takes.
+
+    Parameters
+    ----------
+    tubes
+        Points, shape (q, 3), and radius, shape (q,), of the way to each outlet by its name [m].
+    fields
+        Feed [m] and flux density [T] on the way to each outlet, shapes (n,); what lies past the
+        last feed is not reached. On a part that ways share, the largest field counts.
+
+    Returns
+    -------
+    Figure
+        Two columns wide (180 mm).
+    """
+    with mpl.rc_context(style.RC):
+        figure = Figure(figsize=(style.WIDTH * style.MM, HEIGHT * style.MM))
+        FigureCanvasAgg(figure)
+        figure.set_layout_engine("constrained")
+        axes: Any = figure.add_subplot(projection="3d", computed_zorder=False)
+        parts = {n: shapes.Branch(1e3 * p, 1e3 * r) for n, (p, r) in tubes.items()}
+        peak = max((1e3 * float(b.max(initial=0.0)) for _, b in fields.values()), default=0.0)
+        scale = ScalarMappable(Normalize(0.0, peak or 1.0), style.PUSH)
+        for k, name in enumerate(parts):
+            before = list(parts.values())[:k]
+            _draw_way(axes, name, parts, before, _needed(name, parts, fields), scale)
+        _frame(axes, list(parts.values()))
+        figure.colorbar(scale, ax=axes, shrink=0.6, label="flux density [mT]")
+    return figure
+
+
+def save(
+    tubes: Mapping[str, tuple[Array, Array]],
+    fields: Mapping[str, tuple[Array, Array]],
+    path: str | Path,
+) -> None:
+    """Draw the tree into a file; the parameters are those of ``draw``."""
+    figure = draw(tubes, fields)
+    with mpl.rc_context(style.RC):
+        figure.savefig(path)
+
+
+def arcs(part: shapes.Branch) -> Array:
+    """Arc length along a way [mm]."""
+    steps = np.linalg.norm(np.diff(part.points, axis=0), axis=1)
+    return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def _needed(
+    name: str, parts: Mapping[str, shapes.Branch], fields: Mapping[str, tuple[Array, Array]]
+) -> Array:
+    """Largest flux density at each point of a way [mT]; NaN where no wire got."""
+    own = parts[name]
+    needed = np.full(len(own.points), np.nan)
+    for other, (feed, flux) in fields.items():
+        if len(feed) == 0:
+            continue
+        end = len(own.points)
+        if other != name:
+            end = shapes.leaves(own, [parts[other]]) + 1
+        far = np.maximum.accumulate(feed)  # of what was fed twice, the largest field counts
+        along = arcs(own)[:end]
+        there = np.array([flux[far <= 1e-3 * s + 1e-12][-1] for s in along])
+        there[1e-3 * along > far[-1] + 1e-3 * own.radius[:end]] = np.nan
+        needed[:end] = np.fmax(needed[:end], 1e3 * there)
+    return needed
+
+
+def _draw_way(
+    axes: Any,
+    name: str,
+    parts: Mapping[str, shapes.Branch],
+    before: list[shapes.Branch],
+    needed: Array,
+    scale: ScalarMappable,
+) -> None:
+    """Draw what a way does not share with those before it."""
+    part = parts[name]
+    start = shapes.leaves(part, before)
+    own = shapes.Branch(part.points[start:], part.radius[start:])
+    x, y, z = shapes.tube(own)
+    axes.plot_surface(
+        x, y, z, color=style.LUMEN_EDGE, alpha=0.13, linewidth=0.0, shade=False, rstride=1,
+        cstride=1, antialiased=True, rasterized=True,
+    )  # fmt: skip
+    pieces = np.stack([own.points[:-1], own.points[1:]], axis=1)
+    values = needed[start:-1]
+    known = np.isfinite(values)
+    colours = np.where(known[:, None], scale.to_rgba(np.nan_to_num(values)), (0.6, 0.63, 0.66, 1.0))
+    axes.add_collection3d(Line3DCollection(pieces, colors=colours, linewidths=2.4))
+    reached = bool(known[-1])
+    mark = "o" if reached else "x"
+    colour = colours[-1] if reached else style.FORCE
+    axes.plot(*own.points[-1:].T, mark, color=colour, markersize=4.5)
+    axes.text(*own.points[-1], f"  {name}", color=style.INK, fontsize=7.0)
+
+
+def _frame(axes: Any, parts: list[shapes.Branch]) -> None:
+    low = np.min([np.min(p.points - p.radius[:, None], axis=0) for p in parts], axis=0)
+    high = np.max([np.max(p.points + p.radius[:, None], axis=0) for p in parts], axis=0)
+    axes.plot(*parts[0].points[:1].T, "s", color=style.INK, markersize=4)
+    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
+    axes.set_box_aspect(high - low, zoom=1.15)
+    elevation, azimuth = shapes.view(parts)
+    axes.view_init(elev=elevation, azim=azimuth)
+    shapes.dress(axes)

@@ -1,0 +1,176 @@
+"""Which outlets a wire reaches: the answer, its numbers, its table, its files and its map."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import magwire as mw
+from magwire.cli import main
+from magwire.planning import fitted
+from magwire.plot import prospects as maps
+from magwire.scenario import load
+
+WIRE = mw.Wire.uniform(
+    length=0.02,
+    radius=0.5e-3,
+    youngs_modulus=3e6,
+    shear_modulus=1e6,
+    density=2000.0,
+    nodes=17,
+    magnetized_tip=5e-3,
+    magnetization=128e3,
+)
+FORK = mw.Lumen.tree(
+    {
+        "ahead": mw.Lumen.straight(0.05, 3e-3),
+        "aside": mw.Lumen.through(
+            [[0.015, 0, 0], [0.022, 0.002, 0], [0.03, 0.007, 0], [0.038, 0.014, 0]], 2.5e-3
+        ),
+        "thin": mw.Lumen.through([[0.03, 0, 0], [0.035, -0.006, 0], [0.04, -0.02, 0]], 0.45e-3),
+    }
+)
+
+
+@pytest.fixture(scope="module")
+def found() -> dict[str, mw.Prospect]:
+    asked: list[str] = []
+    prospects = mw.plan(FORK, WIRE, watch=asked.append)
+    assert asked == ["ahead", "aside", "thin"]
+    return {p.outlet: p for p in prospects}
+
+
+def test_straight_ahead_takes_no_field(found: dict[str, mw.Prospect]) -> None:
+    ahead = found["ahead"]
+    assert ahead.reached
+    assert ahead.length == pytest.approx(0.05)
+    assert ahead.fed == pytest.approx(0.047)  # one radius before the outlet
+    assert ahead.peak_field < 1e-6
+    assert ahead.tip_force == ahead.wall_force == 0.0
+    assert ahead.clearance == pytest.approx(2.5e-3, abs=2e-5)
+    assert (ahead.narrowest, ahead.bend.radius) == (pytest.approx(3e-3), np.inf)
+    assert ahead.reason == ""
+
+
+def test_aside_takes_one_and_keeps_the_tip_off_the_wall(found: dict[str, mw.Prospect]) -> None:
+    aside = found["aside"]
+    assert aside.reached
+    assert aside.tip_force == 0.0
+    assert aside.clearance > 0.0
+    assert 1e-4 < aside.peak_field < 0.05
+    assert aside.flux_density.max() == aside.peak_field
+    assert aside.force.max() == aside.wall_force
+    assert len(aside.feed) == len(aside.flux_density) == len(aside.force)
+    assert aside.flux_density[aside.feed < 5e-3].max() < 0.2 * aside.peak_field
+
+
+def test_a_lumen_narrower_than_the_wire_is_said(found: dict[str, mw.Prospect]) -> None:
+    thin = found["thin"]
+    assert not thin.reached
+    assert thin.fed == 0.0
+    assert thin.reason.startswith("The wire is 1 mm wide, the lumen 0.9 mm at ")
+
+
+def test_too_weak_a_field_is_the_reason() -> None:
+    limit = mw.Demands(max_field=1e-4)
+    (prospect,) = [p for p in mw.plan(FORK, WIRE, demands=limit) if p.outlet == "aside"]
+    assert not prospect.reached
+    assert 0.01 < prospect.fed < prospect.length
+    assert prospect.peak_field <= 1.001e-4
+    assert prospect.reason.split(" of feed ")[0].startswith("At ")
+
+
+def test_one_tube_has_one_outlet() -> None:
+    (prospect,) = mw.plan(mw.Lumen.straight(0.03, 2e-3), WIRE)
+    assert prospect.outlet == "outlet"
+    assert prospect.reached
+
+
+def test_a_wire_is_made_long_enough_and_stays_the_same_otherwise() -> None:
+    longer = fitted(WIRE, 0.0461)
+    assert 0.0461 <= longer.length < 0.0461 + WIRE.edge_length
+    assert longer.edge_length == pytest.approx(WIRE.edge_length)
+    assert longer.sections[1:] == WIRE.sections[1:]
+    assert replace(longer.sections[0], length=WIRE.sections[0].length) == WIRE.sections[0]
+    assert fitted(WIRE, 0.02) is WIRE
+
+
+def test_what_cannot_be_planned_is_refused() -> None:
+    with pytest.raises(mw.InputError, match="received open space"):
+        mw.plan(mw.Lumen.open_space(), WIRE)
+    plain = mw.Wire(tuple(replace(s, magnetization=(0.0, 0.0, 0.0)) for s in WIRE.sections), 17)
+    with pytest.raises(mw.InputError, match="wire of plan must be magnetised; received none"):
+        mw.plan(FORK, plain)
+
+
+def test_map_shows_what_is_needed_and_what_is_not_reached(
+    found: dict[str, mw.Prospect],
+) -> None:
+    tubes = {name: path.centreline(200) for name, path in FORK.paths.items()}
+    fields = {p.outlet: (p.feed, p.flux_density) for p in found.values()}
+    parts = {n: maps.shapes.Branch(1e3 * p, 1e3 * r) for n, (p, r) in tubes.items()}
+    trunk = maps._needed("ahead", parts, fields)
+    own = maps._needed("aside", parts, fields)
+    assert np.nanmax(own) == pytest.approx(1e3 * found["aside"].peak_field)
+    shared = int(0.012 / 0.05 * 200)
+    assert trunk[shared] == pytest.approx(own[int(0.012 / FORK.paths["aside"].length * 200)])
+    assert np.nanmax(trunk[150:]) < 1e-3  # past the fork it is straight ahead again
+    thin = maps._needed("thin", parts, fields)
+    assert np.isnan(thin[-20:]).all()
+    assert len(maps.draw(tubes, fields).axes) == 2
+
+
+def test_command_on_a_scenario(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["plan", "straight", "--max-field", "20 mT", "--out", "out"]) == 0
+    seen = capsys.readouterr().out
+    assert "tip force [mN]" in seen
+    assert "yes" in seen
+    files = sorted(path.name for path in Path("out").iterdir())
+    assert files == ["plan.csv", "plan.json", "plan.png"]
+    rows = json.loads(Path("out/plan.json").read_text())["outlets"]
+    assert [row["outlet"] for row in rows] == ["outlet"]
+    assert rows[0]["reached"] is True
+    assert rows[0]["tightest_bend"] is None  # straight: JSON has no infinity
+    length = 1e3 * load("straight").lumen.build().length
+    assert rows[0]["length"] == pytest.approx(length)
+    heads = Path("out/plan.csv").read_text().splitlines()[0].split(",")
+    assert heads[:4] == ["outlet", "reached", "length [mm]", "fed [mm]"]
+    assert main(["plan", "straight", "--out", "out"]) == 1
+    assert "--force" in capsys.readouterr().err
+
+
+def test_command_on_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "tube.csv"
+    rows = [f"{x},{0.02 * x * x:.4f},0,3" for x in range(0, 31, 2)]
+    file.write_text("\n".join(["x [mm],y [mm],z [mm],radius [mm]", *rows]) + "\n")
+    words = ["plan", str(file), "--wire", "1 mm", "--entrance", "0 mm, 0 mm, 0 mm"]
+    assert main(words) == 0
+    assert "yes" in capsys.readouterr().out
+    assert main([*words, "--max-field", "0.01 mT"]) == 0
+    seen = capsys.readouterr().out
+    assert "no " in seen
+    assert "of feed" in seen
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["x.vtp"], "Input --wire must be the wire's diameter, such as '0.6 mm'; received none."),
+        (["x.vtp", "--wire", "0.6"], "Input --wire needs a unit of length"),
+        (["x.vtp", "--wire=-1 mm"], "--wire of magwire plan must be positive"),
+        (["x.vtp", "--wire", "1 mm"], "Vessel file 'x.vtp' cannot be read"),
+        (["straight", "--units", "mm"], "Option --units is for a vessel's file; received 'mm'."),
+    ],
+)
+def test_command_says_what_is_wrong(
+    words: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["plan", *words]) == 1
+    assert said in capsys.readouterr().err
