@@ -240,5 +240,6 @@ def turning(start: Array, first: Array, last: Array, length: float) -> Array:
 def progress(points: Array) -> Array:
     """Arc length of points over that of all, shape (n,)."""
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    along: Array = np.concatenate([[0.0], np.cumsum(steps)])
-    return along / along[-1]
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    part: Array = along / along[-1]
+    return part
