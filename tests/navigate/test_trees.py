@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import numpy as np
 import pytest
 
@@ -40,3 +42,16 @@ def test_passively_it_goes_where_the_tube_goes_on() -> None:
     tip = result.position[-1][-1]
     assert lumen.path("middle").offset(tip[None])[0] < lumen.radius_range[1]
     assert lumen.path("left").offset(tip[None])[0] > 2.0 * lumen.radius_range[1]
+
+
+@pytest.mark.skipif("MAGWIRE_SLOW" not in os.environ, reason="half a minute; set MAGWIRE_SLOW")
+def test_from_the_descending_aorta_into_the_left_carotid() -> None:
+    scenario = load("aortic-arch")
+    result = scenario.run()
+    assert result.status == "complete", result.message
+    assert result.max_tip_force == 0.0
+    assert result.smallest_clearance > 0.0
+    assert result.peak_field < 0.02
+    lumen, tip = scenario.lumen.build(), result.position[-1][-1]
+    inside = [name for name in lumen.outlets if lumen.path(name).gap(tip[None])[0] > 0.0]
+    assert inside == ["left carotid"]

@@ -499,9 +499,9 @@ FAULTS = (
     Fault(
         "unknown name",
         (),
-        "There is no scenario 'xyz'; expected one of 'half-circle', 'half-circle-narrow', "
-        "'half-circle-wide', 'helix', 'left-branch', 'middle-branch', 'right-branch', 'sinusoid', "
-        "'straight'.",
+        "There is no scenario 'xyz'; expected one of 'aortic-arch', 'half-circle', "
+        "'half-circle-narrow', 'half-circle-wide', 'helix', 'left-branch', 'middle-branch', "
+        "'right-branch', 'sinusoid', 'straight'.",
         "xyz",
     ),
 )

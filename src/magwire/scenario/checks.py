@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable, Iterator
 
 from magwire.errors import InputError
-from magwire.scenario.lumens import PointsLumen, TreeLumen
+from magwire.scenario.lumens import AorticArchLumen, PointsLumen, TreeLumen
 from magwire.scenario.model import Scenario
 from magwire.scenario.navigators import ModelSteering, ScheduledSteering
 from magwire.scenario.tables import (
@@ -140,7 +140,7 @@ def bends(scenario: Scenario) -> Faults:
     lumen = scenario.lumen
     if any(radii(scenario)) or any(outlets(scenario)):
         return
-    if isinstance(lumen, (PointsLumen, VesselLumen)):
+    if isinstance(lumen, (AorticArchLumen, PointsLumen, VesselLumen)):
         yield from refusals(lumen.build)
     elif lumen.tightest_bend <= lumen.radius:
         yield (

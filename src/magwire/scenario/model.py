@@ -8,6 +8,7 @@ import tomli_w
 from pydantic import BaseModel, Discriminator, Field, Tag
 
 from magwire.scenario.lumens import (
+    AorticArchLumen,
     HalfCircleLumen,
     HelixLumen,
     PointsLumen,
@@ -70,6 +71,7 @@ Lumen = Annotated[
     | SinusoidLumen
     | HelixLumen
     | TreeLumen
+    | AorticArchLumen
     | PointsLumen
     | VesselLumen,
     Field(discriminator="shape"),
@@ -94,6 +96,7 @@ CHOICES: dict[str, tuple[str, dict[str, type[Table]]]] = {
             "sinusoid": SinusoidLumen,
             "helix": HelixLumen,
             "tree": TreeLumen,
+            "aortic-arch": AorticArchLumen,
             "points": PointsLumen,
             "vessel": VesselLumen,
         },
