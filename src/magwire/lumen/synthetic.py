@@ -240,4 +240,4 @@ def turning(start: Array, first: Array, last: Array, length: float) -> Array:
 def progress(points: Array) -> Array:
     """Arc length of points over that of all, shape (n,)."""
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    return np.concatenate([[0.0], np.cumsum(steps)]) / steps.sum()
+    return np.asarray(np.concatenate([[0.0], np.cumsum(steps)]) / steps.sum())
