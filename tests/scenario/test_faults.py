@@ -228,7 +228,8 @@ FAULTS = (
         "unknown shape",
         ("lumen.shape=half_circle",),
         "Input lumen.shape must be one of 'straight', 'half-circle', 'sinusoid', 'helix', "
-        "'tree', 'aortic-arch', 'points', 'vessel'; received 'half_circle', did you mean 'half-circle'?",
+        "'tree', 'aortic-arch', 'points', 'vessel'; received 'half_circle', did you mean "
+        "'half-circle'?",
     ),
     Fault(
         "shape that is no text",
