@@ -228,13 +228,14 @@ FAULTS = (
         "unknown shape",
         ("lumen.shape=half_circle",),
         "Input lumen.shape must be one of 'straight', 'half-circle', 'sinusoid', 'helix', "
-        "'tree', 'points', 'vessel'; received 'half_circle', did you mean 'half-circle'?",
+        "'tree', 'aortic-arch', 'points', 'vessel'; received 'half_circle', did you mean "
+        "'half-circle'?",
     ),
     Fault(
         "shape that is no text",
         ("lumen.shape=3",),
         "Input lumen.shape must be one of 'straight', 'half-circle', 'sinusoid', 'helix', "
-        "'tree', 'points', 'vessel'; received 3.",
+        "'tree', 'aortic-arch', 'points', 'vessel'; received 3.",
     ),
     Fault(
         "unknown wall",
@@ -570,7 +571,7 @@ FILES = {
     "no shape": (
         WIRE + '[lumen]\nlength = "1 m"\n' + FEED,
         "Input lumen.shape is missing; expected one of 'straight', 'half-circle', 'sinusoid', "
-        "'helix', 'tree', 'points', 'vessel'.",
+        "'helix', 'tree', 'aortic-arch', 'points', 'vessel'.",
     ),
     "no radius": (
         WIRE.replace('radius = "0.6 mm"\n', "") + TUBE + FEED,
