@@ -224,15 +224,19 @@ def query(lumen, x, known, jet):
 
 
 @kernel
-def push(lumen, x, stiffness, gap, offset, known, jet):
-    """Barrier of a point: active or not, energy, gradient, Hessian (P-8, P-11).
+def clear_of_wall(x, known, reach):
+    """Whether a point is known to be farther than ``reach`` from the wall.
 
-    ``known`` remembers where the gap was last asked for and how far from there no wall is.
+    ``known`` remembers where the gap was last asked for and how far from there no wall is. It is
+    asked before ``push``, since a call hands over the whole lumen, and most nodes need none.
     """
-    away = norm(sub(x, (known[0], known[1], known[2])))
-    if away + gap + offset <= known[3]:
-        return False, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    if not away == 0.0:
+    return norm(sub(x, (known[0], known[1], known[2]))) + reach <= known[3]
+
+
+@kernel
+def push(lumen, x, stiffness, gap, offset, known, jet):
+    """Barrier of a point near the wall: active or not, energy, gradient, Hessian (P-8, P-11)."""
+    if not (x[0] == known[0] and x[1] == known[1] and x[2] == known[2]):
         query(lumen, x, known, jet)
     d, n = jet[0] - offset, (jet[1], jet[2], jet[3])
     h = (jet[4], jet[5], jet[6], jet[7], jet[8], jet[9])
@@ -248,6 +252,8 @@ def push(lumen, x, stiffness, gap, offset, known, jet):
 @kernel
 def press(rod, lumen, wall, x, i):
     """Barrier of the wall on node i at x; see ``push``."""
+    if clear_of_wall(x, wall.known[i], wall.gap + rod.offset[i]):
+        return False, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     stiffness = wall.stiffness * rod.cell[i]
     return push(lumen, x, stiffness, wall.gap, rod.offset[i], wall.known[i], wall.jet[i])
 
@@ -255,6 +261,8 @@ def press(rod, lumen, wall, x, i):
 @kernel
 def press_tube(rod, tube, x):
     """Barrier of the virtual tube on the tip at x; see ``push`` (P-19)."""
+    if clear_of_wall(x, tube.known[0], tube.gap + tube.offset):
+        return False, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     stiffness = tube.stiffness * rod.cell[rod.cell.shape[0] - 1]
     return push(tube.path, x, stiffness, tube.gap, tube.offset, tube.known[0], tube.jet[0])
 

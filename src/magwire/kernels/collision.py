@@ -7,9 +7,9 @@ The gap is 1-Lipschitz, so a point may move by less than its gap. Repeating that
 from __future__ import annotations
 
 from magwire.kernels._jit import kernel
-from magwire.kernels.assembly import query
+from magwire.kernels.assembly import clear_of_wall, query
 from magwire.kernels.gap import gap_value
-from magwire.kernels.vectors import combine, norm, row, sub
+from magwire.kernels.vectors import combine, norm, row
 
 CAUTION = 0.9  # part of the safe distance that one hop uses
 CLOSEST = 0.1  # a step may shrink the clearance to this part of itself, not further
@@ -18,12 +18,9 @@ HOPS = 200
 
 @kernel
 def travel(lumen, x, dx, offset, known, jet, limit):
-    """Largest part of the step dx, at most ``limit``, that point x may take."""
+    """Largest part of the step dx, at most ``limit``, that a point x near the wall may take."""
     length = norm(dx)
-    away = norm(sub(x, (known[0], known[1], known[2])))
-    if limit * length <= CAUTION * (known[3] - away - offset):
-        return limit
-    if not away == 0.0:
+    if not (x[0] == known[0] and x[1] == known[1] and x[2] == known[2]):
         query(lumen, x, known, jet)
     start = known[3] - offset
     part = 0.0
@@ -49,11 +46,12 @@ def allowed_part(rod, lumen, wall, q, step, held):
     lead = 4 * (held - 1)
     for i in range(held + 1, nodes):
         r = 4 * i - lead
-        dx = (step[r], step[r + 1], step[r + 2])
-        part = travel(lumen, row(q, i), dx, rod.offset[i], wall.known[i], wall.jet[i], part)
+        x, dx = row(q, i), (step[r], step[r + 1], step[r + 2])
+        if not clear_of_wall(x, wall.known[i], part * norm(dx) / CAUTION + rod.offset[i]):
+            part = travel(lumen, x, dx, rod.offset[i], wall.known[i], wall.jet[i], part)
     tube = wall.tube
     if tube.stiffness > 0.0 and held < nodes - 1:
-        part = travel(
-            tube.path, row(q, nodes - 1), dx, tube.offset, tube.known[0], tube.jet[0], part
-        )
+        x = row(q, nodes - 1)
+        if not clear_of_wall(x, tube.known[0], part * norm(dx) / CAUTION + tube.offset):
+            part = travel(tube.path, x, dx, tube.offset, tube.known[0], tube.jet[0], part)
     return part
