@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from magwire.field import GradientField as GradientField
     from magwire.field import UniformField as UniformField
     from magwire.lumen import Lumen as Lumen
-    from magwire.lumen import Vessel as Vessel
+    from magwire.lumen.vessel import Vessel as Vessel
     from magwire.many import Outcome as Outcome
     from magwire.many import run_many as run_many
     from magwire.navigate import Prescribed as Prescribed
@@ -64,7 +64,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "StableNavigator": ("magwire.navigate.stable", "StableNavigator"),
     "TipNavigator": ("magwire.navigate.tip", "TipNavigator"),
     "UniformField": ("magwire.field", "UniformField"),
-    "Vessel": ("magwire.lumen", "Vessel"),
+    "Vessel": ("magwire.lumen.vessel", "Vessel"),
     "Wire": ("magwire.wire", "Wire"),
     "load_scenario": ("magwire.scenario", "load"),
     "plan": ("magwire.planning", "plan"),

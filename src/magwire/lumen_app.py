@@ -110,7 +110,7 @@ def convert_lumen(
         Overwrite what is there.
     """
     from magwire import lumen_commands as commands
-    from magwire.lumen import Vessel
+    from magwire.lumen.vessel import Vessel
 
     vessel = Vessel.read(
         file,

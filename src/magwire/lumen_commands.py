@@ -8,9 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from magwire.errors import MagwireError
-from magwire.lumen import Vessel
 from magwire.lumen.files import Drawing, Line, load, netcdf, vtp
-from magwire.lumen.vessel import Spot, survey
+from magwire.lumen.vessel import Spot, Vessel, survey
 from magwire.lumen.vessel.placement import Placement, guessed_unit
 from magwire.units import DIMENSIONS, parse, show
 

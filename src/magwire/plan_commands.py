@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from magwire.errors import InputError, positive
-from magwire.lumen import Lumen, Vessel
+from magwire.lumen import Lumen
+from magwire.lumen.vessel import Vessel
 from magwire.lumen_commands import spot
 from magwire.navigate.demands import Demands
 from magwire.planning import Prospect, plan

@@ -9,7 +9,8 @@ import pytest
 
 import vessel_files
 from magwire.cli import main
-from magwire.lumen import Lumen, Vessel
+from magwire.lumen import Lumen
+from magwire.lumen.vessel import Vessel
 
 
 @pytest.fixture

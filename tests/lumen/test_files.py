@@ -10,8 +10,9 @@ import pytest
 
 import corrupted_files
 from magwire.errors import InputError
-from magwire.lumen import Lumen, Vessel
+from magwire.lumen import Lumen
 from magwire.lumen.files import load
+from magwire.lumen.vessel import Vessel
 from vessel_files import CENTRELINES, EVERY, SINGLE, SURFACES, fork, vtp
 
 LENGTHS = [float(np.linalg.norm(np.diff(p, axis=0), axis=1).sum()) for p, _ in fork()]

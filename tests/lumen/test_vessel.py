@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from magwire.errors import InputError
-from magwire.lumen import Lumen, Vessel
-from magwire.lumen.vessel import survey
+from magwire.lumen import Lumen
+from magwire.lumen.vessel import Vessel, survey
 from magwire.lumen.vessel.placement import Placement
 from magwire.lumen.vessel.smooth import smooth
 from vessel_files import Lines, fork, pieces, table, vtp

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scipy.spatial import KDTree
 
-from magwire.lumen import Vessel
 from magwire.lumen.files import load
+from magwire.lumen.vessel import Vessel
 from magwire.lumen.vessel.extract import extract
 from magwire.lumen.vessel.placement import guessed_unit
 

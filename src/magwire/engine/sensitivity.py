@@ -11,7 +11,6 @@ from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_banded
 
 from magwire.engine.parameters import parameter_loads
 from magwire.engine.point import Point
@@ -135,6 +134,8 @@ def _solve(point: Point, loads: Array) -> Array:
         for row in rows:
             solve(band, row, FIRST, last)
     else:  # an unstable equilibrium has sensitivities, too
+        from scipy.linalg import solve_banded
+
         half = WIDTH - 1
         rows[:, FIRST:last] = solve_banded((half, half), whole, rows[:, FIRST:last].T).T
     rows[:, :FIRST] = 0.0

@@ -142,3 +142,31 @@ def emit(index, sample, out, count):
         out[count, 0] = index
         out[count, 1] = sample
     return count + 1
+
+
+@kernel
+def spread(away, shape):
+    """How many voxels each voxel is from the nearest that holds a zero, diagonals counting one.
+
+    Two sweeps, there and back, each looking at the half of the neighbours that it has passed.
+
+    Parameters
+    ----------
+    away
+        Zero, or a number larger than any that can come out, shape [voxels]; changed in place.
+    shape
+        Number of voxels [3].
+    """
+    for sweep in (1, -1):
+        for index in range(len(away)):
+            here = index if sweep == 1 else len(away) - 1 - index
+            a, rest = here // (shape[1] * shape[2]), here % (shape[1] * shape[2])
+            b, c = rest // shape[2], rest % shape[2]
+            least = away[here]
+            for i in range(max(a - 1, 0), min(a + 2, shape[0])):
+                for j in range(max(b - 1, 0), min(b + 2, shape[1])):
+                    for k in range(max(c - 1, 0), min(c + 2, shape[2])):
+                        there = (i * shape[1] + j) * shape[2] + k
+                        if sweep * (there - here) < 0:
+                            least = min(least, away[there] + 1)
+            away[here] = least

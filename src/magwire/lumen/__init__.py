@@ -4,6 +4,5 @@ from __future__ import annotations
 
 from magwire.lumen.branch import Bend, Branch
 from magwire.lumen.lumen import Lumen
-from magwire.lumen.vessel import Vessel
 
-__all__ = ["Bend", "Branch", "Lumen", "Vessel"]
+__all__ = ["Bend", "Branch", "Lumen"]

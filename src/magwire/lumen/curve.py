@@ -7,7 +7,8 @@ from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicHermiteSpline, CubicSpline
+
+from magwire.lumen.spline import Cubic, hermite, spline
 
 Array = NDArray[np.float64]
 
@@ -94,55 +95,50 @@ def fit(points: Array, radius: Array, tangents: tuple[Array | None, Array | None
         Unit tangents at begin and end, shape (3,), where they are known.
     """
     chords = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    lengths = _arc_lengths(CubicSpline(chords, points))[0]
+    lengths = _arc_lengths(spline(chords, points))[0]
     source = _spline(lengths, np.column_stack([points, radius]), tangents)
     return _resample(source, ACCURACY * float(radius.min()))
 
 
-def _spline(
-    lengths: Array, values: Array, tangents: tuple[Array | None, Array | None]
-) -> CubicSpline:
+def _spline(lengths: Array, values: Array, tangents: tuple[Array | None, Array | None]) -> Cubic:
     """Spline of points and radius over arc length; not-a-knot where no tangent is given."""
-    radius = CubicSpline(lengths, values[:, 3])
-    ends = []
-    for tangent, end in zip(tangents, (lengths[0], lengths[-1]), strict=True):
-        known = tangent is not None
-        slope = np.append(tangent, radius(end, 1)) if tangent is not None else None
-        ends.append((1, slope) if known else "not-a-knot")
-    return CubicSpline(lengths, values, bc_type=tuple(ends))
+    radius = spline(lengths, values[:, 3:])
+    begin, end = (
+        None if tangent is None else np.append(tangent, radius(at, 1))
+        for tangent, at in zip(tangents, (lengths[0], lengths[-1]), strict=True)
+    )
+    return spline(lengths, values, begin, end)
 
 
-def _arc_lengths(spline: CubicSpline) -> tuple[Array, Array, Array]:
-    """Arc lengths at the knots of a spline, and at a finer set of parameters, and those."""
-    knots = spline.x
+def _arc_lengths(curve: Cubic) -> tuple[Array, Array, Array]:
+    """Arc lengths at the knots of a curve, and at a finer set of parameters, and those."""
+    knots = curve.knots
     parts = max(1, ceil(64 / (len(knots) - 1)))
     fine = np.interp(np.arange((len(knots) - 1) * parts + 1) / parts, np.arange(len(knots)), knots)
     half = 0.5 * np.diff(fine)
     at = fine[:-1, None] + half[:, None] * (1.0 + NODES)
-    speed = np.linalg.norm(spline(at, 1)[..., :3], axis=-1)
+    speed = np.linalg.norm(curve(at, 1)[..., :3], axis=-1)
     lengths = np.concatenate([[0.0], np.cumsum(half * (speed @ WEIGHTS))])
     return lengths[::parts], lengths, fine
 
 
-def _resample(source: CubicSpline, accuracy: float) -> Curve:
+def _resample(source: Cubic, accuracy: float) -> Curve:
     """Equal pieces of arc length, as many as follow the source within ``accuracy``."""
     _, lengths, fine = _arc_lengths(source)
     speed = np.linalg.norm(source(fine, 1)[:, :3], axis=1)
-    parameter = CubicHermiteSpline(lengths, fine, 1.0 / speed)
+    parameter = hermite(lengths, fine[:, None], 1.0 / speed[:, None])
     middles = 0.5 * (lengths[1:] + lengths[:-1])
     checks = np.concatenate([lengths, middles])
-    wanted = source(parameter(checks))
-    most = 4 * (len(source.x) - 1) + 256
+    wanted = source(parameter(checks)[:, 0])
+    most = 4 * (len(source.knots) - 1) + 256
     pieces = 16
     while True:
         s = np.linspace(0.0, lengths[-1], pieces + 1)
-        u = parameter(s)
+        u = parameter(s)[:, 0]
         u[0], u[-1] = fine[0], fine[-1]
         ends = source(u[[0, -1]], 1) / np.linalg.norm(source(u[[0, -1]], 1)[:, :3], axis=1)[:, None]
-        spline = CubicSpline(s, source(u), bc_type=((1, ends[0]), (1, ends[1])))
-        # scipy: c[power from high to low, piece, component]
-        coefficients = np.ascontiguousarray(spline.c[::-1].transpose(1, 0, 2))
-        curve = Curve(coefficients, float(lengths[-1]) / pieces)
+        equal = spline(s, source(u), ends[0], ends[1])
+        curve = Curve(np.ascontiguousarray(equal.coefficients), float(lengths[-1]) / pieces)
         error = float(np.abs(curve.at(checks) - wanted).max())
         if error <= accuracy or pieces >= most:
             return curve

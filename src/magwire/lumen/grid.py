@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import distance_transform_cdt
 
 from magwire.kernels.centreline import (
     BEGIN,
@@ -26,7 +25,7 @@ from magwire.kernels.centreline import (
     LumenArrays,
     settle,
 )
-from magwire.kernels.seeds import DENSITY, deepest, ridges
+from magwire.kernels.seeds import DENSITY, deepest, ridges, spread
 from magwire.lumen.branch import Branch
 
 Array = NDArray[np.float64]
@@ -225,12 +224,12 @@ def _cells(
     voxels: _Voxels, voxel: NDArray[np.int64], start: NDArray[np.int64]
 ) -> NDArray[np.int32]:
     """First seed of each voxel, or minus the number of voxels to the nearest one with seeds."""
-    empty = np.ones(tuple(voxels.shape), dtype=np.int32)
+    away = np.full(int(voxels.shape.prod()), int(voxels.shape.max()), dtype=np.int32)
     if len(voxel) == 0:
-        return empty.ravel()
-    empty.ravel()[voxel] = 0
-    cells: NDArray[np.int32] = -distance_transform_cdt(empty, metric="chessboard").ravel()
-    cells = cells.astype(np.int32)
+        return np.ones_like(away)
+    away[voxel] = 0
+    spread(away, voxels.shape)
+    cells = -away
     cells[voxel] = start
     return cells
 

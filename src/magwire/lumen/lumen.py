@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.spatial import KDTree
 
 from magwire.errors import InputError, array, nonnegative, positive, whole
 from magwire.kernels.centreline import LumenArrays
@@ -22,6 +21,8 @@ from magwire.lumen.grid import build, scaled
 from magwire.lumen.tree import join
 
 if TYPE_CHECKING:
+    from scipy.spatial import KDTree
+
     from magwire.lumen.vessel import Spot
 
 Array = NDArray[np.float64]
@@ -448,6 +449,8 @@ class Lumen:
     @cached_property
     def _samples(self) -> tuple[KDTree, Array]:
         """Points of all centrelines for points that no voxel holds: tree, and arc and branch."""
+        from scipy.spatial import KDTree
+
         points, tags = [], []
         for index, branch in enumerate(self.branches):
             s = np.linspace(0.0, branch.length, 4 * len(branch.curve.coefficients) + 1)

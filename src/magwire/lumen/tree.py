@@ -6,16 +6,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import ceil, degrees, tan
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import BPoly
-from scipy.spatial import KDTree
 
 from magwire.errors import InputError
 from magwire.lumen.branch import Branch
 from magwire.lumen.curve import Curve
+
+if TYPE_CHECKING:
+    from scipy.spatial import KDTree
 
 Array = NDArray[np.float64]
 
@@ -52,6 +53,8 @@ class _Trace:
 
     @cached_property
     def _samples(self) -> KDTree:
+        from scipy.spatial import KDTree
+
         return KDTree(self.curve.at(self.arcs)[:, :3])
 
     def nearest(self, points: Array) -> tuple[Array, Array, Array]:
@@ -198,6 +201,8 @@ def _turn(
     The turn is a polynomial of degree five with the points, tangents and curvatures of both at its
     ends. In the turn the radius is that of the second line.
     """
+    from scipy.interpolate import BPoly  # slow to import, and not every lumen has a junction
+
     ends = [c.at(np.array([s]), k)[0, :3] for c, s in (begin, end) for k in range(3)]
     chord = float(np.linalg.norm(ends[3] - ends[0]))
     ends = [values * chord ** (i % 3) for i, values in enumerate(ends)]

@@ -15,8 +15,9 @@ from magwire.scenario.quantity import Quantity, Row, Rows, fault
 from magwire.units import DIMENSIONS, parse, write
 
 if TYPE_CHECKING:
-    from magwire.lumen import Lumen, Vessel
+    from magwire.lumen import Lumen
     from magwire.lumen.branch import Branch
+    from magwire.lumen.vessel import Vessel
 
 BALL = Row((Quantity("length"),) * 3 + (Quantity("length", "positive"),))
 Balls = Annotated[tuple[tuple[float, float, float, float], ...], Rows(BALL, least=2)]
@@ -102,7 +103,7 @@ def inline(lumen: dict[str, Any], folder: Path) -> tuple[dict[str, Any], list[st
         faults.append(f"Input lumen.file must be the name of a file; received {lumen['file']!r}.")
     if faults:
         return rest, faults
-    from magwire.lumen import Vessel
+    from magwire.lumen.vessel import Vessel
 
     target = options.pop("target", None)
     try:
