@@ -10,7 +10,7 @@ import pytest
 from scipy.spatial import KDTree
 
 from magwire.lumen.files import load
-from magwire.lumen.vessel import Vessel
+from magwire.lumen.vessel import Vessel, vmtk
 from magwire.lumen.vessel.extract import extract
 from magwire.lumen.vessel.placement import guessed_unit
 
@@ -52,13 +52,19 @@ def test_every_file_is_read(name: str) -> None:
 
 @there
 @pytest.mark.parametrize("name", sorted(PAIRS))
-def test_extraction_agrees_with_vmtk(name: str) -> None:
+@pytest.mark.parametrize("by", ["voxels", "vmtk"])
+def test_extraction_agrees_with_vmtk(name: str, by: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    if by == "voxels":
+        monkeypatch.setattr(vmtk, "installed", lambda: False)
+    elif not vmtk.installed():
+        pytest.skip("VMTK is not installed")
     surface, lines = load(FOLDER / name).surface, load(FOLDER / PAIRS[name]).lines
     assert surface is not None
     millimetres = 10.0 if FILES[name][0] == "cm" else 1.0
     points = np.concatenate([line.points for line in lines])
     radius = np.concatenate([line.radius for line in lines])
     found = extract(surface)
+    assert ("The centrelines are by VMTK." in found.notes) == (by == "vmtk")
     ours = np.concatenate([line.points for line in found.lines])
     wide = np.concatenate([line.radius for line in found.lines])
     distance, nearest = KDTree(points).query(ours)

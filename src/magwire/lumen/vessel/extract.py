@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -9,6 +10,7 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 from scipy.spatial import KDTree
 
 from magwire.lumen.files.drawing import Array, FileFaultError, Indices, Line, Surface
+from magwire.lumen.vessel import vmtk
 from magwire.lumen.vessel.interior import Interior, fill, to_wall, wall_samples
 from magwire.lumen.vessel.mesh import End, Shell, shell
 
@@ -39,9 +41,10 @@ def extract(surface: Surface) -> Extracted:
     """The centrelines of a vessel's surface, closed or open, in the surface's unit.
 
     The ends are the open rims or, of a closed surface, its flat caps; if it has none, they are the
-    tips of its branches. The ways between them through the voxels inside are those of the least
-    sum of length over distance from the wall to the power of ``SHYNESS``. Each is then pulled to
-    where the ball that touches the wall is largest, and that ball's radius is the radius.
+    tips of its branches. Where VMTK is installed, and there are rims or caps, the lines are its.
+    Otherwise the ways between the ends through the voxels inside are those of the least sum of
+    length over distance from the wall to the power of ``SHYNESS``. Each is then pulled to where the
+    ball that touches the wall is largest, and that ball's radius is the radius.
 
     Raises
     ------
@@ -50,6 +53,27 @@ def extract(surface: Surface) -> Extracted:
     """
     hull = shell(surface)
     ends, notes = _without_holes(hull)
+    if len(ends) > 1 and vmtk.installed():
+        found = _by_vmtk(hull, ends)
+        if found is not None:
+            notes = (*notes, "The centrelines are by VMTK.")
+            return Extracted(found[0], (*hull.notes, *notes, found[1]))
+        notes = (*notes, "VMTK does not find the way to every end; magwire's own extraction does.")
+    lines, accuracy = _through_voxels(hull, ends)
+    return Extracted(lines, (*hull.notes, *notes, accuracy))
+
+
+def _by_vmtk(hull: Shell, ends: list[End]) -> tuple[tuple[Line, ...], str] | None:
+    """The lines by VMTK, and how accurate they are."""
+    lines = vmtk.centrelines(hull, ends, max(range(len(ends)), key=lambda k: ends[k].radius))
+    if lines is None:
+        return None
+    spread = SPACING * min(end.radius for end in ends)
+    return lines, _accuracy(lines, *wall_samples(hull.points, hull.wall, spread))
+
+
+def _through_voxels(hull: Shell, ends: list[End]) -> tuple[tuple[Line, ...], str]:
+    """The lines by the voxels inside, and how accurate they are."""
     narrow = min(end.radius for end in ends) if ends else _typical(hull)
     inside = fill(hull.points, np.concatenate([hull.wall, hull.caps]), FINENESS * narrow)
     if inside.cell > COARSEST * narrow:
@@ -75,7 +99,7 @@ def extract(surface: Surface) -> Extracted:
             way = np.concatenate([[ends[first].centre], way[1:-1], [end.centre]])
             points = _pulled(way, tree, inside.cell, (ends[first], end))
             lines.append(Line("", points, to_wall(tree, points, within=0.002)[0]))
-    return Extracted(tuple(lines), (*hull.notes, *notes, _accuracy(lines, samples, spacing)))
+    return tuple(lines), _accuracy(lines, samples, spacing)
 
 
 def _typical(hull: Shell) -> float:
@@ -181,7 +205,7 @@ def _even(points: Array, cell: float) -> Array:
     return np.column_stack([np.interp(at, arc, points[:, k]) for k in range(3)])
 
 
-def _accuracy(lines: list[Line], samples: Array, spacing: float) -> str:
+def _accuracy(lines: Sequence[Line], samples: Array, spacing: float) -> str:
     """How far the surface is from the tubes of inscribed balls."""
     points = np.concatenate([line.points for line in lines])
     radius = np.concatenate([line.radius for line in lines])
