@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
-from pydantic import BeforeValidator, Field
+from pydantic import Field
 
 from magwire.scenario.quantity import (
     Length,
@@ -17,7 +17,7 @@ from magwire.scenario.quantity import (
     Row,
     Rows,
     Whole,
-    fault,
+    at_least_one,
 )
 from magwire.scenario.tables import Table, preset
 
@@ -36,12 +36,6 @@ Bends = Annotated[
     ),
 ]
 Radii = Annotated[tuple[float, ...], OneOrEach(Quantity("length", "positive"))]
-
-
-def _some(value: Any) -> Any:
-    if value == {}:
-        raise fault("must have at least one branch; received none")
-    return value
 
 
 class LumenTable(Table):
@@ -174,7 +168,7 @@ class TreeLumen(RoundLumen):
 
     shape: Literal["tree"]
     target: str
-    branches: Annotated[dict[str, Bends], BeforeValidator(_some)]
+    branches: Annotated[dict[str, Bends], at_least_one("branch")]
     points: Points = preset(200)
 
     @property
