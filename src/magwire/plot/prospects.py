@@ -52,7 +52,7 @@ def draw(
             before = list(parts.values())[:k]
             _draw_way(axes, name, parts, before, _needed(name, parts, fields), scale)
         axes.plot(*next(iter(parts.values())).points[:1].T, "s", color=style.INK, markersize=4)
-        shapes.frame(axes, list(parts.values()), zoom=1.15)
+        shapes.frame(axes, list(parts.values()))
         figure.colorbar(scale, ax=axes, shrink=0.6, label="flux density [mT]")
     return figure
 
