@@ -25,6 +25,8 @@ SIDES = 28
 """Corners of a cross-section of the lumen drawn in space."""
 VIEW = (24.0, -58.0)
 """Elevation and azimuth that a single tube is seen from [deg]."""
+SLIM = 3.0
+"""Longest extent over the second longest from which a box in space leaves room for its names."""
 GUIDE = 0.12
 """Length of the guide that is shown before the entrance, over the largest extent."""
 
@@ -144,10 +146,14 @@ def frame(
     """Show a box around tubes in space at one scale; the smallest box if none is given."""
     low, high = bounds(parts) if box is None else box
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-    ax.set_box_aspect(high - low, zoom=zoom)
+    size = high - low
+    slim = bool(size.max() > SLIM * np.sort(size)[1])
+    ax.set_box_aspect(size, zoom=0.85 * zoom if slim else zoom)
     elevation, azimuth = view(parts)
     ax.view_init(elev=elevation, azim=azimuth)
     dress(ax)
+    if slim:
+        (ax.xaxis, ax.yaxis, ax.zaxis)[int(np.argmax(size))].labelpad = 12
 
 
 def dress(ax: Any) -> None:
