@@ -193,43 +193,6 @@ class TreeLumen(RoundLumen):
         return Lumen.tree(tubes, target=self.target)
 
 
-class AorticArchLumen(LumenTable):
-    """An aortic arch with its three supra-aortic branches, entered from the descending aorta."""
-
-    shape: Literal["aortic-arch"]
-    target: Literal["left carotid", "left subclavian", "brachiocephalic", "ascending aorta"]
-    arch_radius: Length = preset("35 mm")
-    radius: Length = preset("11 mm")
-    ascending_radius: Length = preset("14 mm")
-    descending: Length = preset("60 mm")
-    ascending: Length = preset("50 mm")
-
-    @property
-    def narrowest(self) -> float:
-        """Smallest radius on the way to the target [m]."""
-        from magwire.lumen.synthetic import SUPRA_AORTIC
-
-        wide = min(self.radius, self.ascending_radius)
-        return min(wide, SUPRA_AORTIC[self.target][1] if self.target in SUPRA_AORTIC else wide)
-
-    def shape_model(self) -> Lumen:
-        """The lumen as a model, without its entry."""
-        return self._model
-
-    @cached_property
-    def _model(self) -> Lumen:
-        from magwire.lumen.synthetic import aortic_arch
-
-        return aortic_arch(
-            arch_radius=self.arch_radius,
-            radius=self.radius,
-            ascending_radius=self.ascending_radius,
-            descending=self.descending,
-            ascending=self.ascending,
-            target=self.target,
-        )
-
-
 class PointsLumen(LumenTable):
     """A smooth curve through given points, entrance first.
 
