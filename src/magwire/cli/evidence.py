@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from magwire.cli.folders import check_free, writing_to
-from magwire.cli.options import Flag, Folder, Force, Names
+from magwire.cli.options import Flag, Names
 from magwire.cli.words import complain, say, say_if_compiling
 
 
-def reproduce(*, only: Names = None, out: Folder = None, force: Force = False) -> int:
+def reproduce(*, only: Names = None, out: Path | None = None, force: Flag = False) -> int:
     """Run the paper's cases: figures, and what it says next to what magwire finds.
 
     Parameters
@@ -42,8 +42,8 @@ def verify(
     *,
     full: Flag = False,
     only: Names = None,
-    out: Folder = None,
-    force: Force = False,
+    out: Path | None = None,
+    force: Flag = False,
 ) -> int:
     """Compare with closed forms and other methods: the evidence that the physics is right.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from magwire.cli.folders import check_free, writing_to
-from magwire.cli.options import Folder, Force
+from magwire.cli.options import Flag
 from magwire.cli.words import CommandError, say, say_if_compiling
 
 
@@ -21,8 +21,8 @@ def plan_outlets(
     youngs_modulus: str | None = None,
     magnetization: str | None = None,
     magnetized_tip: str | None = None,
-    out: Folder = None,
-    force: Force = False,
+    out: Path | None = None,
+    force: Flag = False,
 ) -> int:
     """Steer a wire to every outlet, by equilibria: table, and with --out files and a map.
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from magwire.cli.folders import FIGURES, passive_beside, writing_to
-from magwire.cli.options import Folder, Force
+from magwire.cli.options import Flag
 from magwire.cli.words import CommandError, say
 
 
-def plot(result: Path, /, *, out: Folder = None, force: Force = False) -> None:
+def plot(result: Path, /, *, out: Path | None = None, force: Flag = False) -> None:
     """Draw a result as figure.png and figure.svg.
 
     Parameters
@@ -48,7 +48,7 @@ def animate(
     out: Path | None = None,
     width: int = 960,
     seconds: float = 12.0,
-    force: Force = False,
+    force: Flag = False,
 ) -> None:
     """Make a moving picture of a result: the wire in its lumen, the field and the tip force.
 

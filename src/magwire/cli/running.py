@@ -14,7 +14,7 @@ from magwire.cli.folders import (
     check_free,
     writing_to,
 )
-from magwire.cli.options import Folder, Force, Overrides
+from magwire.cli.options import Flag, Overrides
 from magwire.cli.words import INTERRUPTED, CommandError, complain, say, say_if_compiling
 
 if TYPE_CHECKING:
@@ -28,9 +28,9 @@ def run(
     /,
     *,
     overrides: Overrides = None,
-    out: Folder = None,
+    out: Path | None = None,
     compare: Literal["none"] | None = None,
-    force: Force = False,
+    force: Flag = False,
 ) -> int:
     """Run a scenario: result, summary and figure.
 
@@ -65,8 +65,8 @@ def replay(
     scale: float = 1.0,
     resample: str | None = None,
     overrides: Overrides = None,
-    out: Folder = None,
-    force: Force = False,
+    out: Path | None = None,
+    force: Flag = False,
 ) -> int:
     """Run a result's scenario again in the field that was recorded, whatever the wire does.
 

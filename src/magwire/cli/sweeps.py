@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from magwire.cli.folders import check_free, writing_to
-from magwire.cli.options import Flag, Folder, Force
+from magwire.cli.options import Flag
 from magwire.cli.words import INTERRUPTED, complain, say
 
 
@@ -14,10 +14,10 @@ def sweep(
     /,
     *,
     workers: int | None = None,
-    out: Folder = None,
+    out: Path | None = None,
     keep: Flag = False,
     cluster: str | None = None,
-    force: Force = False,
+    force: Flag = False,
 ) -> int:
     """Run a scenario for many values of its keys: one table, and a figure.
 

@@ -99,8 +99,10 @@ def convert_lumen(
         lumen's table of a scenario.
     units
         Unit of the numbers in the file, such as mm; needed unless it states one.
-    entrance, target
-        Name or number of an end, or a point such as "1 mm, 2 mm, 3 mm".
+    entrance
+        Name or number of an end, or a point such as "1 mm, 2 mm, 3 mm"; the widest end if left out.
+    target
+        The same, of the scenario's table; the first outlet if left out.
     radius
         Name of the array that holds the radius, or one radius for all, such as "2 mm".
     scale
