@@ -1,14 +1,33 @@
-"""A progress bar for work that comes in pieces."""
+"""Progress bars."""
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.progress import Progress, ProgressColumn
+
+    from magwire.engine.record import Record
+
+WIDTH = 28
+"""Of a bar, in characters."""
+
+
+def bar(*columns: ProgressColumn) -> Progress:
+    """A progress bar on standard error, if that is a terminal; at its end it is gone."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    console = Console(stderr=True)
+    return Progress(*columns, console=console, disable=not console.is_terminal, transient=True)
 
 
 @contextmanager
 def pieces(total: int) -> Iterator[Callable[[str], None]]:
-    """A progress bar on standard error, if that is a terminal.
+    """A progress bar for work that comes in pieces.
 
     Parameters
     ----------
@@ -20,23 +39,58 @@ def pieces(total: int) -> Iterator[Callable[[str], None]]:
     callable
         To be called with the name of each piece before it starts.
     """
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
 
-    console = Console(stderr=True)
-    bar = Progress(
-        BarColumn(bar_width=28),
+    columns = (
+        BarColumn(bar_width=WIDTH),
         MofNCompleteColumn(),
         TimeElapsedColumn(),
         TextColumn("{task.description}"),
-        console=console,
-        disable=not console.is_terminal,
-        transient=True,
     )
-    with bar:
-        task = bar.add_task("", total=total, completed=-1)
+    with bar(*columns) as shown:
+        task = shown.add_task("", total=total, completed=-1)
 
         def begin(name: str) -> None:
-            bar.update(task, advance=1, description=name)
+            shown.update(task, advance=1, description=name)
 
         yield begin
+
+
+@contextmanager
+def running(duration: float) -> Iterator[Callable[[Record], None]]:
+    """A progress bar for a run: feed, tip force and real-time factor.
+
+    Parameters
+    ----------
+    duration
+        Simulated time at the end of the run [s].
+
+    Yields
+    ------
+    callable
+        To be called with every record.
+    """
+    from rich.progress import BarColumn, TaskProgressColumn, TextColumn
+
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(bar_width=WIDTH),
+        TaskProgressColumn(),
+        TextColumn("feed {task.fields[feed]:5.1f} mm"),
+        TextColumn("tip force {task.fields[force]:6.3f} mN"),
+        TextColumn("{task.fields[factor]:.1f} x real time"),
+    )
+    start = time.perf_counter()
+    with bar(*columns) as shown:
+        task = shown.add_task("running", total=duration, feed=0.0, force=0.0, factor=0.0)
+
+        def watch(record: Record) -> None:
+            shown.update(
+                task,
+                completed=record.time,
+                feed=1e3 * record.feed,
+                force=1e3 * record.tip_force,
+                factor=record.time / max(time.perf_counter() - start, 1e-9),
+            )
+
+        yield watch

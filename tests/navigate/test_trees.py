@@ -7,7 +7,13 @@ import os
 import numpy as np
 import pytest
 
+from magwire.lumen import Lumen
 from magwire.scenario import load
+
+
+def nearest_way(lumen: Lumen, tip: np.ndarray) -> str:
+    """The outlet whose way is nearest to a point."""
+    return min(lumen.outlets, key=lambda name: lumen.path(name).offset(tip[None])[0])
 
 
 @pytest.mark.parametrize("target", ["left", "middle", "right"])
@@ -53,5 +59,20 @@ def test_from_the_descending_aorta_into_the_left_carotid() -> None:
     assert result.smallest_clearance > 0.0
     assert result.peak_field < 0.02
     lumen, tip = scenario.lumen.build(), result.position[-1][-1]
-    inside = [name for name in lumen.outlets if lumen.path(name).gap(tip[None])[0] > 0.0]
-    assert inside == ["left carotid"]
+    assert nearest_way(lumen, tip) == "left carotid"
+
+
+@pytest.mark.parametrize(
+    ("name", "outlet", "field"),
+    [("carotid", "internal", 2e-3), ("coronary", "anterior", 10e-3), ("tortuous", None, 6e-3)],
+)
+def test_through_vessels_with_a_formula(name: str, outlet: str | None, field: float) -> None:
+    scenario = load(name)
+    result = scenario.run()
+    assert result.status == "complete", result.message
+    assert result.max_tip_force == 0.0
+    assert result.smallest_clearance > 0.0
+    assert 0.0 < result.peak_field < field
+    lumen, tip = scenario.lumen.build(), result.position[-1][-1]
+    assert outlet is None or nearest_way(lumen, tip) == outlet
+    assert lumen.path().length - result.feed[-1] < 4e-3

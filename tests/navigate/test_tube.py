@@ -9,8 +9,9 @@ from magwire.contact import Barrier
 from magwire.engine.system import System
 from magwire.navigate import NavigationError, Observation, Schedule
 from magwire.navigate.model import Model
-from magwire.navigate.newton import TOLERANCE, TUBE, NewtonNavigator
+from magwire.navigate.newton import TOLERANCE, NewtonNavigator
 from magwire.navigate.paper import Optimiser, PaperNavigator
+from magwire.navigate.tube import TUBE
 from magwire.wire import Wire
 from tables import control_field
 from wires import L, lumen, paper_wire, simulation

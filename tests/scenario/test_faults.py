@@ -228,14 +228,42 @@ FAULTS = (
         "unknown shape",
         ("lumen.shape=half_circle",),
         "Input lumen.shape must be one of 'straight', 'half-circle', 'sinusoid', 'helix', "
-        "'tree', 'aortic-arch', 'points', 'vessel'; received 'half_circle', did you mean "
-        "'half-circle'?",
+        "'tree', 'aortic-arch', 'carotid-bifurcation', 'coronary-tree', 'tortuous', 'points', "
+        "'vessel'; received 'half_circle', did you mean 'half-circle'?",
     ),
     Fault(
         "shape that is no text",
         ("lumen.shape=3",),
         "Input lumen.shape must be one of 'straight', 'half-circle', 'sinusoid', 'helix', "
-        "'tree', 'aortic-arch', 'points', 'vessel'; received 3.",
+        "'tree', 'aortic-arch', 'carotid-bifurcation', 'coronary-tree', 'tortuous', 'points', "
+        "'vessel'; received 3.",
+    ),
+    Fault(
+        "branch that a vessel with a formula lacks",
+        ("lumen.target=diagonal 3",),
+        "Input lumen.target must be one of the outlets 'anterior', 'circumflex', 'diagonal 1', "
+        "'diagonal 2'; received 'diagonal 3'.",
+        "coronary",
+    ),
+    Fault(
+        "arch that is wider than its bend",
+        ("lumen.arch_radius=10 mm", "wire.radius=20 mm"),
+        "Input lumen.arch_radius must be larger than the lumen's radius 0.014 m; received 0.01 m.",
+        "aortic-arch",
+    ),
+    Fault(
+        "carotid arteries that part at no angle",
+        ("lumen.angle=0 deg",),
+        "Input lumen.angle must be positive; received 0 deg.",
+        "carotid",
+    ),
+    Fault(
+        "carotid arteries that turn back",
+        ("lumen.angle=2.5 rad",),
+        "Input lumen must bend with a radius larger than the lumen's; received a bend of radius "
+        "0.00149714 m in a lumen of radius 0.00319908 m at arc length 0.0568533 m, near "
+        "(0.00178729, 0, 0.0562029) m.",
+        "carotid",
     ),
     Fault(
         "unknown wall",
@@ -500,9 +528,9 @@ FAULTS = (
     Fault(
         "unknown name",
         (),
-        "There is no scenario 'xyz'; expected one of 'aortic-arch', 'half-circle', "
-        "'half-circle-narrow', 'half-circle-wide', 'helix', 'left-branch', 'middle-branch', "
-        "'right-branch', 'sinusoid', 'straight'.",
+        "There is no scenario 'xyz'; expected one of 'aortic-arch', 'carotid', 'coronary', "
+        "'half-circle', 'half-circle-narrow', 'half-circle-wide', 'helix', 'left-branch', "
+        "'middle-branch', 'right-branch', 'sinusoid', 'straight', 'tortuous'.",
         "xyz",
     ),
 )
@@ -571,7 +599,8 @@ FILES = {
     "no shape": (
         WIRE + '[lumen]\nlength = "1 m"\n' + FEED,
         "Input lumen.shape is missing; expected one of 'straight', 'half-circle', 'sinusoid', "
-        "'helix', 'tree', 'aortic-arch', 'points', 'vessel'.",
+        "'helix', 'tree', 'aortic-arch', 'carotid-bifurcation', 'coronary-tree', 'tortuous', "
+        "'points', 'vessel'.",
     ),
     "no radius": (
         WIRE.replace('radius = "0.6 mm"\n', "") + TUBE + FEED,

@@ -36,14 +36,14 @@ def step(out: str) -> None:
     """What ``magwire run half-circle`` does up to the end of its first time step."""
     from pathlib import Path
 
-    from magwire.cli import progress
+    from magwire.progress import running
     from magwire.scenario import load
 
     described = load("half-circle", ("feed.distance=0.1 mm", "output.record_every=0.01 mm"))
     mark("scenario")
     job = described.build()
     mark("models")
-    with progress(job.feed.duration) as show:
+    with running(job.feed.duration) as show:
 
         def watch(record: Record) -> None:
             if record.totals.steps > 0 and "step" not in stamps:

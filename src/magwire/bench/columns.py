@@ -39,6 +39,11 @@ def per_step(samples: Sequence[Sample], pick: Pick = median) -> float:
     return 1e3 * pick(samples, "seconds") / samples[0]["steps"]
 
 
+def step_times(samples: Sequence[Sample]) -> list[str]:
+    """Wall time of a step [ms], median and least."""
+    return [f"{per_step(samples, pick):.4f}" for pick in PICKS]
+
+
 def iterations(samples: Sequence[Sample]) -> float:
     return samples[0]["newton_iterations"]
 

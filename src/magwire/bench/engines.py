@@ -22,11 +22,11 @@ from magwire.bench.repeats import Sample, interleaved
 from magwire.contact import Barrier
 from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
-from magwire.engine.sampling import sample
-from magwire.field import UniformField
-from magwire.kernels.march import Plan, Tally, march
 from magwire.lumen import Lumen
 from magwire.simulation import Simulation
+from magwire.verify import mujoco_rod
+from magwire.verify.engines import settle
+from magwire.verify.mujoco_rod import DAMPING
 from magwire.wire import Wire
 
 LENGTH, RADIUS, BEND, TUBE = 0.1, 0.6e-3, 25e-3, 3e-3
@@ -35,7 +35,6 @@ MAGNETIZATION, FIELD = 20e3, 4.0  # [A/m]; flux density, in EI/(M L^2)
 PUSH = 0.72
 NODES, COARSE = 100, 26  # MuJoCo's constraints are too stiff for more nodes against the wall
 STEP, SHORT_STEP = 0.01, 3e-4  # dt [s]; MuJoCo's against the wall
-DAMPING = 5.0  # against the velocities [1/s]
 DURATION, PRESSING = 6.0, 3.0  # until all is at rest [s]
 CANTILEVER, PRESSED = "magnetic cantilever", f"half-circle, X = {PUSH:g}"
 
@@ -61,28 +60,8 @@ def across(made: Wire) -> np.ndarray[Any, np.dtype[np.float64]]:
 def cantilever_here() -> Sample:
     """The cantilever by magwire: time steps until it rests."""
     made = wire()
-    sim = Simulation(made, Lumen.open_space(), damping=DAMPING)
-    system, rest = sim.system, sim.equilibrium(made.length)
-    state, mouth = rest.point.state, rest.point.mouth
-    flux = across(made)
-    source = UniformField((float(flux[0]), float(flux[1]), float(flux[2])))
-    steps, step = round(DURATION / STEP), STEP
-    plan = Plan(np.ones(steps + 1), np.zeros(steps + 1), step, system.damping, True)
-    model = (system.rod, sample(system, source, state), system.new_wall(), system.walls)
-    velocity, work, tally = (
-        np.zeros_like(state.q),
-        system.new_work(),
-        Tally(np.zeros(4), np.zeros(3)),
-    )
-    began = 0.0
-    for first, last in ((0, 1), (1, steps)):  # the first step may have to read compiled code
-        began = time.perf_counter()
-        march(
-            model, system.guide, state, velocity, work, system.step_limits(), plan, first, last,
-            mouth.held, tally,
-        )  # fmt: skip
-    seconds = (time.perf_counter() - began) / (steps - 1)
-    return _sample(seconds, state.q[-1, :3] * made.length)
+    tip, seconds = settle(made, across(made), STEP, DURATION)
+    return _sample(seconds, tip)
 
 
 def _sample(seconds: float, tip: Any) -> Sample:
@@ -95,8 +74,6 @@ def _sample(seconds: float, tip: Any) -> Sample:
 
 def cantilever_mujoco(nodes: int) -> Sample:
     """The cantilever by MuJoCo."""
-    from magwire.verify import mujoco_rod
-
     made = wire()
     rod = mujoco_rod.Rod(length=LENGTH, nodes=nodes, radius=RADIUS, **MATERIAL)
     couple = (made.moment_per_length * rod.edge, across(made))
@@ -127,8 +104,6 @@ def pressed_here() -> Sample:
 
 def pressed_mujoco() -> Sample:
     """The wire laid along the half-circle's centreline and let go, by MuJoCo."""
-    from magwire.verify import mujoco_rod
-
     rod = mujoco_rod.Rod(length=PUSH * LENGTH, nodes=COARSE, radius=RADIUS, **MATERIAL)
     walls = mujoco_rod.half_circle_walls(BEND, TUBE, 360)
     model = rod.model(SHORT_STEP, flat=True, walls=walls)
@@ -149,7 +124,7 @@ def run_engines(repeats: int, tell: Callable[[str], None]) -> list[dict[str, Any
     rows: list[tuple[str, str, int, float, Callable[[], Sample]]] = [
         (CANTILEVER, "magwire", NODES, STEP, cantilever_here)
     ]
-    mujoco = find_spec("mujoco") is not None and find_spec("magwire.verify") is not None
+    mujoco = find_spec("mujoco") is not None
     if mujoco:
         rows += [
             (CANTILEVER, "MuJoCo", nodes, STEP, partial(cantilever_mujoco, nodes))

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from rich.table import Table
 
-from magwire.bench.columns import PICKS, Row, counts, iterations, passes, per_step, table
-from magwire.bench.repeats import exponent, least, median
+from magwire.bench.columns import PICKS, Row, counts, iterations, passes, step_times, table
+from magwire.bench.repeats import exponent, median
 
 CASES_NOTE = (
     "Compiled stepping alone; every dt covers the same feed; nodes on the guide are no unknowns.\n"
@@ -34,8 +34,7 @@ def by_case(rows: Sequence[Row], push: float) -> Table:
             row["name"],
             f"{1e3 * dt:g}",
             f"{samples[0]['steps']}",
-            f"{per_step(samples):.4f}",
-            f"{per_step(samples, least):.4f}",
+            *step_times(samples),
             *counts(samples),
             f"{samples[0]['simulated'] / median(samples, 'seconds'):.0f}",
             f"{samples[0]['peak']:.2f}",
@@ -53,8 +52,7 @@ def by_nodes(rows: Sequence[Row]) -> Table:
         samples = row["samples"]
         made.add_row(
             f"{row['nodes']}",
-            f"{per_step(samples):.4f}",
-            f"{per_step(samples, least):.4f}",
+            *step_times(samples),
             *counts(samples),
             f"{1e6 * median(samples, 'seconds') / iterations(samples):.1f}",
             f"{1e6 * median(samples, 'seconds') / passes(samples):.1f}",
@@ -114,8 +112,7 @@ def _against_points(rows: Sequence[Row], title: str, name: str, branches: int) -
         ratios = [pick(samples, "seconds") / pick(first["samples"], "seconds") for pick in PICKS]
         made.add_row(
             f"{branches * row['points']}",
-            f"{per_step(samples):.4f}",
-            f"{per_step(samples, least):.4f}",
+            *step_times(samples),
             *(f"{ratio:.3f}" for ratio in ratios),
             *counts(samples),
             f"{1e3 * median(samples, 'setup'):.0f}",

@@ -14,15 +14,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from magwire.errors import InputError, array, nonnegative, positive, whole
 from magwire.kernels.centreline import LumenArrays
-from magwire.kernels.gap import gap_many
 from magwire.lumen import shapes
 from magwire.lumen.branch import Bend, Branch
-from magwire.lumen.grid import build, scaled
+from magwire.lumen.grid import scaled
+from magwire.lumen.search import Search
 from magwire.lumen.tree import join
 
 if TYPE_CHECKING:
-    from scipy.spatial import KDTree
-
     from magwire.lumen.vessel import Spot
 
 Array = NDArray[np.float64]
@@ -381,7 +379,7 @@ class Lumen:
         points
             Shape (n, 3) [m].
         """
-        return self._query(points)[0]
+        return self._search.near(array("Lumen", "points", points, (None, 3), "m"))[0]
 
     def locate(self, points: ArrayLike) -> tuple[Array, Indices]:
         """Arc parameter [m] and branch of the ball that each point is deepest in, shapes (n,).
@@ -391,17 +389,7 @@ class Lumen:
         points
             Shape (n, 3) [m]. Also far outside of the lumen: there it is the nearest ball.
         """
-        where = array("Lumen", "points", points, (None, 3), "m")
-        _, arc, branch = self._query(where)
-        lost = np.flatnonzero(branch < 0)
-        if len(lost) > 0 and self.branches:
-            tree, samples = self._samples
-            nearest = tree.query(where[lost])[1]
-            arc[lost], branch[lost] = samples[nearest, 0], samples[nearest, 1].astype(np.int32)
-            for index, part in enumerate(self.branches):
-                here = lost[branch[lost] == index]
-                arc[here] += part.beyond(where[here], arc[here])
-        return arc, branch
+        return self._search.anywhere(array("Lumen", "points", points, (None, 3), "m"))
 
     def offset(self, points: ArrayLike) -> Array:
         """Distance of points from the centreline, shape (n,) [m]; nan in open space.
@@ -413,18 +401,13 @@ class Lumen:
         points
             Shape (n, 3) [m].
         """
-        where = array("Lumen", "points", points, (None, 3), "m")
-        arc, branch = self.locate(where)
-        distance = np.full(len(where), np.nan)
-        for index, part in enumerate(self.branches):
-            here = branch == index
-            centre = part.curve.at(arc[here])[:, :3]
-            distance[here] = np.linalg.norm(where[here] - centre, axis=1)
-        return distance
+        return self._search.offset(array("Lumen", "points", points, (None, 3), "m"))
 
     def arrays(self, length_scale: float = 1.0) -> LumenArrays:
         """The lumen as the kernels take it, in units of ``length_scale`` [m]."""
-        return scaled(self._arrays, positive("Lumen.arrays", "length_scale", length_scale, "m"))
+        return scaled(
+            self._search.arrays, positive("Lumen.arrays", "length_scale", length_scale, "m")
+        )
 
     @cached_property
     def _ways(self) -> dict[str, Lumen]:
@@ -442,29 +425,9 @@ class Lumen:
         raise InputError(f"Input {name} of Lumen must be {expected}; received {outlet!r}.")
 
     @cached_property
-    def _arrays(self) -> LumenArrays:
-        """Arrays in metres, built on first use."""
-        return build(self.branches)
-
-    @cached_property
-    def _samples(self) -> tuple[KDTree, Array]:
-        """Points of all centrelines for points that no voxel holds: tree, and arc and branch."""
-        from scipy.spatial import KDTree
-
-        points, tags = [], []
-        for index, branch in enumerate(self.branches):
-            s = np.linspace(0.0, branch.length, 4 * len(branch.curve.coefficients) + 1)
-            points.append(branch.curve.at(s)[:, :3])
-            tags.append(np.column_stack([s, np.full(len(s), float(index))]))
-        return KDTree(np.concatenate(points)), np.concatenate(tags)
-
-    def _query(self, points: ArrayLike) -> tuple[Array, Array, Indices]:
-        """Gap, arc parameter and branch of points; nan and -1 where no voxel holds them."""
-        where = array("Lumen", "points", points, (None, 3), "m")
-        gap, arc = np.empty(len(where)), np.empty(len(where))
-        branch = np.empty(len(where), dtype=np.int32)
-        gap_many(self._arrays, where, gap, arc, branch)
-        return gap, arc, branch
+    def _search(self) -> Search:
+        """Where points are, in all branches."""
+        return Search(self.branches)
 
 
 def _lines(branches: Mapping[str, Lumen]) -> dict[str, Branch]:

@@ -13,6 +13,7 @@ from magwire.many.cluster import run_there
 from magwire.many.job import Job
 from magwire.many.outcome import Outcome
 from magwire.many.processes import run_here
+from magwire.progress import WIDTH, bar
 
 if TYPE_CHECKING:
     from magwire.scenario import Scenario
@@ -100,7 +101,7 @@ def cores() -> int:
 
 @contextmanager
 def progress(total: int, done: int = 0) -> Iterator[Callable[[Outcome], None]]:
-    """A progress bar on standard error, if that is a terminal.
+    """A progress bar for runs.
 
     Parameters
     ----------
@@ -114,35 +115,29 @@ def progress(total: int, done: int = 0) -> Iterator[Callable[[Outcome], None]]:
     callable
         To be called with every outcome.
     """
-    from rich.console import Console
     from rich.progress import (
         BarColumn,
         MofNCompleteColumn,
-        Progress,
         TextColumn,
         TimeElapsedColumn,
         TimeRemainingColumn,
     )
 
-    console = Console(stderr=True)
-    bar = Progress(
+    columns = (
         TextColumn("runs"),
-        BarColumn(bar_width=28),
+        BarColumn(bar_width=WIDTH),
         MofNCompleteColumn(),
         TimeElapsedColumn(),
         TimeRemainingColumn(),
         TextColumn("{task.description}"),
-        console=console,
-        disable=not console.is_terminal,
-        transient=True,
     )
     early = 0
-    with bar:
-        task = bar.add_task("", total=total, completed=done)
+    with bar(*columns) as shown:
+        task = shown.add_task("", total=total, completed=done)
 
         def show(outcome: Outcome) -> None:
             nonlocal early
             early += not outcome.complete
-            bar.update(task, advance=1, description=f"{early} ended early" if early else "")
+            shown.update(task, advance=1, description=f"{early} ended early" if early else "")
 
         yield show

@@ -13,19 +13,17 @@ from numpy.typing import NDArray
 from magwire.engine.system import System
 from magwire.errors import positive
 from magwire.lumen import Lumen
-from magwire.navigate.model import Model
 from magwire.navigate.navigator import NavigationError, Observation
 from magwire.navigate.schedule import Schedule
+from magwire.navigate.tube import RANK, TubeNavigator
 
 Array = NDArray[np.float64]
 
-TUBE = 0.01  # radius of the virtual tube, in the lumen's radius (P-19)
 TOLERANCE = 0.05  # force of the tube that counts as none, in EI/L^2
 ITERATIONS = 12
-RANK = 1e-3  # directions of the field that move the tip by less than this part are left alone
 
 
-class NewtonNavigator:
+class NewtonNavigator(TubeNavigator):
     """Keeps the tip on the centreline by Newton's method on the virtual tube's force.
 
     Parameters
@@ -52,18 +50,13 @@ class NewtonNavigator:
     def __init__(
         self, system: System, *, path: Lumen | None = None, plan_every: float | None = None
     ) -> None:
-        tube = system.path if path is None else path
+        super().__init__(system, path)
         length = 5e-3 * system.wire.length if plan_every is None else plan_every
         self.plan_every = positive("NewtonNavigator", "plan_every", length, "m")
-        self.model = Model(system, tube, TUBE * tube.narrowest)
 
     def plan(self, observation: Observation, until: float) -> Schedule:
         """The field from the observed feed on; see ``Navigator.plan``."""
         return self.model.plan(until, self.plan_every, self._go_to)
-
-    def expected_tip(self, feed: float) -> Array | None:
-        """Where the tip should be at a feed [m], shape (3,) [m]; None if that is not known."""
-        return self.model.expected_tip(feed)
 
     def _go_to(self, feed: float) -> None:
         model = self.model

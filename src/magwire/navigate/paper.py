@@ -15,10 +15,9 @@ from numpy.typing import NDArray
 from magwire.engine.system import System
 from magwire.errors import positive, whole
 from magwire.lumen import Lumen
-from magwire.navigate.model import Model
 from magwire.navigate.navigator import NavigationError, Observation
-from magwire.navigate.newton import RANK, TUBE
 from magwire.navigate.schedule import Schedule
+from magwire.navigate.tube import RANK, TubeNavigator
 
 Array = NDArray[np.float64]
 
@@ -53,7 +52,7 @@ class Optimiser:
         whole("Optimiser", "iterations", self.iterations, minimum=1)
 
 
-class PaperNavigator:
+class PaperNavigator(TubeNavigator):
     """The paper's Algorithm 1; its field stays as it is from one observation to the next.
 
     Parameters
@@ -80,9 +79,8 @@ class PaperNavigator:
     def __init__(
         self, system: System, *, path: Lumen | None = None, optimiser: Optimiser | None = None
     ) -> None:
-        tube = system.path if path is None else path
+        super().__init__(system, path)
         self.optimiser = Optimiser() if optimiser is None else optimiser
-        self.model = Model(system, tube, TUBE * tube.narrowest)
 
     def plan(self, observation: Observation, until: float) -> Schedule:
         """The field from the observed feed on; see ``Navigator.plan``."""
@@ -93,10 +91,6 @@ class PaperNavigator:
         if self.model.released:
             self._optimise(until)
         return Schedule(np.array([until]), self.model.flux[None])
-
-    def expected_tip(self, feed: float) -> Array | None:
-        """Where the tip should be at a feed [m], shape (3,) [m]; None if that is not known."""
-        return self.model.expected_tip(feed)
 
     def _optimise(self, feed: float) -> None:
         """Algorithm 1, lines 3 to 13."""

@@ -51,7 +51,8 @@ def draw(
         for k, name in enumerate(parts):
             before = list(parts.values())[:k]
             _draw_way(axes, name, parts, before, _needed(name, parts, fields), scale)
-        _frame(axes, list(parts.values()))
+        axes.plot(*next(iter(parts.values())).points[:1].T, "s", color=style.INK, markersize=4)
+        shapes.frame(axes, list(parts.values()))
         figure.colorbar(scale, ax=axes, shrink=0.6, label="flux density [mT]")
     return figure
 
@@ -67,12 +68,6 @@ def save(
         figure.savefig(path)
 
 
-def arcs(part: shapes.Branch) -> Array:
-    """Arc length along a way [mm]."""
-    steps = np.linalg.norm(np.diff(part.points, axis=0), axis=1)
-    return np.concatenate([[0.0], np.cumsum(steps)])
-
-
 def _needed(
     name: str, parts: Mapping[str, shapes.Branch], fields: Mapping[str, tuple[Array, Array]]
 ) -> Array:
@@ -86,7 +81,7 @@ def _needed(
         if other != name:
             end = shapes.leaves(own, [parts[other]]) + 1
         far = np.maximum.accumulate(feed)  # of what was fed twice, the largest field counts
-        along = arcs(own)[:end]
+        along = shapes.arcs(own)[:end]
         there = np.array([flux[far <= 1e-3 * s + 1e-12][-1] for s in along])
         there[1e-3 * along > far[-1] + 1e-3 * own.radius[:end]] = np.nan
         needed[:end] = np.fmax(needed[:end], 1e3 * there)
@@ -120,14 +115,3 @@ def _draw_way(
     colour = colours[-1] if reached else style.FORCE
     axes.plot(*own.points[-1:].T, mark, color=colour, markersize=4.5)
     axes.text(*own.points[-1], f"  {name}", color=style.INK, fontsize=7.0)
-
-
-def _frame(axes: Any, parts: list[shapes.Branch]) -> None:
-    low = np.min([np.min(p.points - p.radius[:, None], axis=0) for p in parts], axis=0)
-    high = np.max([np.max(p.points + p.radius[:, None], axis=0) for p in parts], axis=0)
-    axes.plot(*parts[0].points[:1].T, "s", color=style.INK, markersize=4)
-    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-    axes.set_box_aspect(high - low, zoom=1.15)
-    elevation, azimuth = shapes.view(parts)
-    axes.view_init(elev=elevation, azim=azimuth)
-    shapes.dress(axes)

@@ -25,6 +25,8 @@ SIDES = 28
 """Corners of a cross-section of the lumen drawn in space."""
 VIEW = (24.0, -58.0)
 """Elevation and azimuth that a single tube is seen from [deg]."""
+SLIM = 3.0
+"""Longest extent over the second longest from which a box in space leaves room for its names."""
 GUIDE = 0.12
 """Length of the guide that is shown before the entrance, over the largest extent."""
 
@@ -128,11 +130,30 @@ def draw_spatial(
         inside = nodes[np.all((nodes >= low) & (nodes <= high), axis=1)]
         ax.plot(*inside.T, color=colour, linewidth=1.8, zorder=3)
         ax.plot(*nodes[-1:].T, "o", color=colour, markersize=4, mec="white", mew=0.5, zorder=4)
+    frame(ax, parts, (low, high), zoom=1.0 if len(parts) < 2 else 0.95)
+
+
+def bounds(parts: list[Branch]) -> tuple[Array, Array]:
+    """Corners of the box around tubes [mm]."""
+    low = np.min([np.min(p.points - p.radius[:, None], axis=0) for p in parts], axis=0)
+    high = np.max([np.max(p.points + p.radius[:, None], axis=0) for p in parts], axis=0)
+    return low, high
+
+
+def frame(
+    ax: Any, parts: list[Branch], box: tuple[Array, Array] | None = None, *, zoom: float = 1.0
+) -> None:
+    """Show a box around tubes in space at one scale; the smallest box if none is given."""
+    low, high = bounds(parts) if box is None else box
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-    ax.set_box_aspect(high - low, zoom=1.0 if len(parts) < 2 else 0.95)
+    size = high - low
+    slim = bool(size.max() > SLIM * np.sort(size)[1])
+    ax.set_box_aspect(size, zoom=0.85 * zoom if slim else zoom)
     elevation, azimuth = view(parts)
     ax.view_init(elev=elevation, azim=azimuth)
     dress(ax)
+    if slim:
+        (ax.xaxis, ax.yaxis, ax.zaxis)[int(np.argmax(size))].labelpad = 12
 
 
 def dress(ax: Any) -> None:
@@ -192,6 +213,12 @@ def leaves(part: Branch, before: list[Branch]) -> int:
     return min(int(np.flatnonzero(shared)[-1]), len(shared) - 2) if shared.any() else 0
 
 
+def arcs(part: Branch) -> Array:
+    """Arc length along the points of a branch, shape (q,) [mm]."""
+    steps = np.linalg.norm(np.diff(part.points, axis=0), axis=1)
+    return np.concatenate([[0.0], np.cumsum(steps)])
+
+
 def _few_ticks() -> Any:
     from matplotlib.ticker import MaxNLocator
 
@@ -222,8 +249,7 @@ def window(data: xr.Dataset) -> tuple[Array, Array]:
         low, high = points.min(axis=0), points.max(axis=0)
         margin = 0.05 * float((high - low).max()) or 1.0
         return low - margin, high + margin
-    low = np.min([np.min(p.points - p.radius[:, None], axis=0) for p in parts], axis=0)
-    high = np.max([np.max(p.points + p.radius[:, None], axis=0) for p in parts], axis=0)
+    low, high = bounds(parts)
     size = float((high - low).max())
     margin = 0.03 * size
     start, after = parts[0].points[:2]

@@ -53,9 +53,7 @@ def draw_into(
         _draw_tubes(halves[0].add_subplot(projection="3d", computed_zorder=False), parts, tubes)
         axes = halves[1].subplots()
         for i, (name, part) in enumerate(zip(tubes, parts, strict=True)):
-            steps = np.linalg.norm(np.diff(part.points, axis=0), axis=1)
-            arc = np.concatenate([[0.0], np.cumsum(steps)])
-            axes.plot(arc, part.radius, color=COLOURS[i % len(COLOURS)], label=name)
+            axes.plot(shapes.arcs(part), part.radius, color=COLOURS[i % len(COLOURS)], label=name)
         if wire is not None:
             axes.axhline(1e3 * wire, color=style.INK, linestyle="--", linewidth=0.8, label="wire")
         axes.set(xlabel="arc length from the entrance [mm]", ylabel="radius [mm]")
@@ -73,8 +71,6 @@ def save(
 
 
 def _draw_tubes(axes: Any, parts: list[shapes.Branch], names: Mapping[str, Any]) -> None:
-    low = np.min([np.min(p.points - p.radius[:, None], axis=0) for p in parts], axis=0)
-    high = np.max([np.max(p.points + p.radius[:, None], axis=0) for p in parts], axis=0)
     for i, (name, part) in enumerate(zip(names, parts, strict=True)):
         colour = COLOURS[i % len(COLOURS)]
         start = shapes.leaves(part, parts[:i])
@@ -87,8 +83,4 @@ def _draw_tubes(axes: Any, parts: list[shapes.Branch], names: Mapping[str, Any])
         axes.plot(*own.points.T, color=colour, linewidth=0.9)
         axes.text(*own.points[-1], f" {name}", color=colour, fontsize=6.5)
     axes.plot(*parts[0].points[:1].T, "o", color=style.INK, markersize=3.5)
-    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-    axes.set_box_aspect(high - low)
-    elevation, azimuth = shapes.view(parts)
-    axes.view_init(elev=elevation, azim=azimuth)
-    shapes.dress(axes)
+    shapes.frame(axes, parts)

@@ -8,9 +8,10 @@ import re
 from collections.abc import Callable, Iterator
 
 from magwire.errors import InputError
-from magwire.scenario.lumens import AorticArchLumen, PointsLumen, TreeLumen
+from magwire.scenario.lumens import PointsLumen, TreeLumen
 from magwire.scenario.model import Scenario
 from magwire.scenario.navigators import ModelSteering, ScheduledSteering
+from magwire.scenario.synthetic import SyntheticLumen
 from magwire.scenario.tables import (
     ConstantFeed,
     SectionedWire,
@@ -85,7 +86,7 @@ def magnetized_sections(scenario: Scenario) -> Faults:
 
 def wire_fits(scenario: Scenario) -> Faults:
     """The wire is thinner than the lumen."""
-    if any(outlets(scenario)):
+    if any(outlets(scenario)) or any(formula(scenario)):
         return
     wire, lumen = scenario.wire.largest_radius, scenario.lumen.narrowest
     if wire >= lumen:
@@ -97,7 +98,7 @@ def wire_fits(scenario: Scenario) -> Faults:
 
 def activation_gap(scenario: Scenario) -> Faults:
     """A wire in the middle of the lumen does not feel the wall."""
-    if any(outlets(scenario)):
+    if any(outlets(scenario)) or any(formula(scenario)):
         return
     wire, lumen = scenario.wire.largest_radius, scenario.lumen.narrowest
     free = lumen - wire if scenario.contact.wall == "surface" else lumen
@@ -135,12 +136,19 @@ def outlets(scenario: Scenario) -> Faults:
         yield f"Input lumen.target must be one of the outlets {words}; received {lumen.target!r}."
 
 
+def formula(scenario: Scenario) -> Faults:
+    """A vessel with a formula can be made."""
+    if isinstance(scenario.lumen, SyntheticLumen):
+        for fault in refusals(scenario.lumen.build):  # the points are no key of such a lumen
+            yield fault.replace("Input lumen.points must", "Input lumen must", 1)
+
+
 def bends(scenario: Scenario) -> Faults:
     """The lumen's centreline bends more gently than the lumen is wide."""
     lumen = scenario.lumen
-    if any(radii(scenario)) or any(outlets(scenario)):
+    if any(radii(scenario)) or any(outlets(scenario)) or isinstance(lumen, SyntheticLumen):
         return
-    if isinstance(lumen, (AorticArchLumen, PointsLumen, VesselLumen)):
+    if isinstance(lumen, (PointsLumen, VesselLumen)):
         yield from refusals(lumen.build)
     elif lumen.tightest_bend <= lumen.radius:
         yield (
@@ -164,7 +172,7 @@ def feed_within_wire(scenario: Scenario) -> Faults:
 
 def feed_within_lumen(scenario: Scenario) -> Faults:
     """The wire does not come out at the far end."""
-    if any(any(check(scenario)) for check in (radii, outlets, bends)):
+    if any(any(check(scenario)) for check in (radii, outlets, formula, bends)):
         return
     fed, length = _farthest(scenario), scenario.lumen.build().length
     if fed > length * (1.0 + SLACK):
@@ -287,6 +295,10 @@ def refusals(build: Callable[[], object]) -> Faults:
 _TABLES = {
     "Branch": "lumen",
     "Lumen": "lumen",
+    "aortic_arch": "lumen",
+    "carotid_bifurcation": "lumen",
+    "coronary_tree": "lumen",
+    "tortuous": "lumen",
     "Wire": "wire",
     "Section": "wire",
     "UniformField": "field",
@@ -308,6 +320,7 @@ CHECKS: tuple[Callable[[Scenario], Faults], ...] = (
     activation_gap,
     radii,
     outlets,
+    formula,
     bends,
     feed_table,
     feed_within_wire,

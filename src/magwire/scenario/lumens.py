@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
-from pydantic import BeforeValidator, Field
+from pydantic import Field
 
 from magwire.scenario.quantity import (
     Length,
@@ -17,7 +17,7 @@ from magwire.scenario.quantity import (
     Row,
     Rows,
     Whole,
-    fault,
+    at_least_one,
 )
 from magwire.scenario.tables import Table, preset
 
@@ -36,12 +36,6 @@ Bends = Annotated[
     ),
 ]
 Radii = Annotated[tuple[float, ...], OneOrEach(Quantity("length", "positive"))]
-
-
-def _some(value: Any) -> Any:
-    if value == {}:
-        raise fault("must have at least one branch; received none")
-    return value
 
 
 class LumenTable(Table):
@@ -174,7 +168,7 @@ class TreeLumen(RoundLumen):
 
     shape: Literal["tree"]
     target: str
-    branches: Annotated[dict[str, Bends], BeforeValidator(_some)]
+    branches: Annotated[dict[str, Bends], at_least_one("branch")]
     points: Points = preset(200)
 
     @property
@@ -197,43 +191,6 @@ class TreeLumen(RoundLumen):
             for name, rows in self.branches.items()
         }
         return Lumen.tree(tubes, target=self.target)
-
-
-class AorticArchLumen(LumenTable):
-    """An aortic arch with its three supra-aortic branches, entered from the descending aorta."""
-
-    shape: Literal["aortic-arch"]
-    target: Literal["left carotid", "left subclavian", "brachiocephalic", "ascending aorta"]
-    arch_radius: Length = preset("35 mm")
-    radius: Length = preset("11 mm")
-    ascending_radius: Length = preset("14 mm")
-    descending: Length = preset("60 mm")
-    ascending: Length = preset("50 mm")
-
-    @property
-    def narrowest(self) -> float:
-        """Smallest radius on the way to the target [m]."""
-        from magwire.lumen.synthetic import SUPRA_AORTIC
-
-        wide = min(self.radius, self.ascending_radius)
-        return min(wide, SUPRA_AORTIC[self.target][1] if self.target in SUPRA_AORTIC else wide)
-
-    def shape_model(self) -> Lumen:
-        """The lumen as a model, without its entry."""
-        return self._model
-
-    @cached_property
-    def _model(self) -> Lumen:
-        from magwire.lumen.synthetic import aortic_arch
-
-        return aortic_arch(
-            arch_radius=self.arch_radius,
-            radius=self.radius,
-            ascending_radius=self.ascending_radius,
-            descending=self.descending,
-            ascending=self.ascending,
-            target=self.target,
-        )
 
 
 class PointsLumen(LumenTable):

@@ -8,7 +8,6 @@ import tomli_w
 from pydantic import BaseModel, Discriminator, Field, Tag
 
 from magwire.scenario.lumens import (
-    AorticArchLumen,
     HalfCircleLumen,
     HelixLumen,
     PointsLumen,
@@ -22,6 +21,12 @@ from magwire.scenario.navigators import (
     PaperSteering,
     ScheduledSteering,
     StableSteering,
+)
+from magwire.scenario.synthetic import (
+    AorticArchLumen,
+    CarotidBifurcationLumen,
+    CoronaryTreeLumen,
+    TortuousLumen,
 )
 from magwire.scenario.tables import (
     ConstantFeed,
@@ -72,6 +77,9 @@ Lumen = Annotated[
     | HelixLumen
     | TreeLumen
     | AorticArchLumen
+    | CarotidBifurcationLumen
+    | CoronaryTreeLumen
+    | TortuousLumen
     | PointsLumen
     | VesselLumen,
     Field(discriminator="shape"),
@@ -97,6 +105,9 @@ CHOICES: dict[str, tuple[str, dict[str, type[Table]]]] = {
             "helix": HelixLumen,
             "tree": TreeLumen,
             "aortic-arch": AorticArchLumen,
+            "carotid-bifurcation": CarotidBifurcationLumen,
+            "coronary-tree": CoronaryTreeLumen,
+            "tortuous": TortuousLumen,
             "points": PointsLumen,
             "vessel": VesselLumen,
         },

@@ -35,12 +35,10 @@ def inline(lumen: dict[str, Any], folder: Path) -> tuple[dict[str, Any], list[st
         if key in lumen
     ]
     unit = lumen.get("units")
-    known = units.DIMENSIONS["length"].units
     if unit is None:
         faults.append("Input lumen.units is missing; expected the unit of lumen.file such as 'mm'.")
-    elif unit not in known:
-        words = ", ".join(f"'{name}'" for name in known)
-        faults.append(f"Input lumen.units must be one of {words}; received {unit!r}.")
+    else:
+        faults += unit_faults(unit)
     path = lumen["file"]
     if not isinstance(path, str):
         faults.append(f"Input lumen.file must be the name of a CSV file; received {path!r}.")
@@ -54,6 +52,15 @@ def inline(lumen: dict[str, Any], folder: Path) -> tuple[dict[str, Any], list[st
     if "radius" not in lumen:
         rest["radius"] = [f"{row['radius']} {unit}" for row in rows]
     return rest, []
+
+
+def unit_faults(unit: Any) -> list[str]:
+    """What is wrong with the unit of a lumen's file; nothing if it is one of length."""
+    known = units.DIMENSIONS["length"].units
+    if unit in known:
+        return []
+    words = ", ".join(f"'{name}'" for name in known)
+    return [f"Input lumen.units must be one of {words}; received {unit!r}."]
 
 
 def _read(

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
@@ -29,8 +29,37 @@ def fault(text: str) -> PydanticCustomError:
     return PydanticCustomError(FAULT, "{text}", {"text": text})
 
 
+class Kind:
+    """What a value is in the file: how it is read and written, and its JSON schema."""
+
+    def read(self, value: Any) -> Any:
+        """The value as the model has it; raises the fault if it is not of this kind."""
+        raise NotImplementedError
+
+    def write(self, value: Any) -> Any:
+        """The value as the file has it; it reads back to the same."""
+        return value
+
+    def schema(self) -> JsonSchemaValue:
+        """JSON schema of the value in the file."""
+        raise NotImplementedError
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(
+            self.read,
+            serialization=core_schema.plain_serializer_function_ser_schema(self.write),
+        )
+
+    def __get_pydantic_json_schema__(
+        self, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        return self.schema()
+
+
 @dataclass(frozen=True)
-class Quantity:
+class Quantity(Kind):
     """One number with a unit.
 
     Attributes
@@ -71,19 +100,9 @@ class Quantity:
         note = f"{kind.name}, in one of: {', '.join(kind.units)}"
         return {"type": "string", "description": note, "examples": [kind.example]}
 
-    def __get_pydantic_core_schema__(
-        self, source: Any, handler: GetCoreSchemaHandler
-    ) -> CoreSchema:
-        return _core_schema(self.read, self.write)
-
-    def __get_pydantic_json_schema__(
-        self, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
-        return self.schema()
-
 
 @dataclass(frozen=True)
-class Row:
+class Row(Kind):
     """A list of a fixed number of quantities: a vector, or a row of a table.
 
     Attributes
@@ -131,19 +150,9 @@ class Row:
             return row
         return {"anyOf": [self.columns[self.scalar].schema(), row]}
 
-    def __get_pydantic_core_schema__(
-        self, source: Any, handler: GetCoreSchemaHandler
-    ) -> CoreSchema:
-        return _core_schema(self.read, self.write)
-
-    def __get_pydantic_json_schema__(
-        self, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
-        return self.schema()
-
 
 @dataclass(frozen=True)
-class Rows:
+class Rows(Kind):
     """A list of rows, at least ``least`` and at most ``most`` of them."""
 
     row: Row
@@ -175,19 +184,13 @@ class Rows:
         """Rows of texts that read back to the same numbers."""
         return [self.row.write(row) for row in value]
 
-    def __get_pydantic_core_schema__(
-        self, source: Any, handler: GetCoreSchemaHandler
-    ) -> CoreSchema:
-        return _core_schema(self.read, self.write)
-
-    def __get_pydantic_json_schema__(
-        self, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
+    def schema(self) -> JsonSchemaValue:
+        """JSON schema of the list."""
         return {"type": "array", "items": self.row.schema(), "minItems": self.least}
 
 
 @dataclass(frozen=True)
-class OneOrEach:
+class OneOrEach(Kind):
     """One quantity for all, or a list with one for each."""
 
     item: Quantity
@@ -210,20 +213,14 @@ class OneOrEach:
         texts = [self.item.write(entry) for entry in value]
         return texts[0] if len(texts) == 1 else texts
 
-    def __get_pydantic_core_schema__(
-        self, source: Any, handler: GetCoreSchemaHandler
-    ) -> CoreSchema:
-        return _core_schema(self.read, self.write)
-
-    def __get_pydantic_json_schema__(
-        self, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
+    def schema(self) -> JsonSchemaValue:
+        """JSON schema of the quantity, or of the list."""
         item = self.item.schema()
         return {"anyOf": [item, {"type": "array", "items": item, "minItems": 1}]}
 
 
 @dataclass(frozen=True)
-class Whole:
+class Whole(Kind):
     """A whole number without a unit, from ``minimum`` to ``maximum``."""
 
     minimum: int
@@ -246,19 +243,13 @@ class Whole:
             raise fault(f"must be at most {self.maximum}; received {value}")
         return value
 
-    def __get_pydantic_core_schema__(
-        self, source: Any, handler: GetCoreSchemaHandler
-    ) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(self.read)
-
-    def __get_pydantic_json_schema__(
-        self, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
+    def schema(self) -> JsonSchemaValue:
+        """JSON schema of the number."""
         return {"type": "integer", "minimum": self.minimum, "maximum": self.maximum}
 
 
 @dataclass(frozen=True)
-class Share:
+class Share(Kind):
     """A plain number, from ``low`` to ``high``."""
 
     low: float
@@ -277,21 +268,20 @@ class Share:
             raise fault(f"must be from {self.low:g} to {self.high:g}; received {value}")
         return float(value)
 
-    def __get_pydantic_core_schema__(
-        self, source: Any, handler: GetCoreSchemaHandler
-    ) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(self.read)
-
-    def __get_pydantic_json_schema__(
-        self, schema: CoreSchema, handler: GetJsonSchemaHandler
-    ) -> JsonSchemaValue:
+    def schema(self) -> JsonSchemaValue:
+        """JSON schema of the number."""
         return {"type": "number", "minimum": self.low, "maximum": self.high}
 
 
-def _core_schema(read: Callable[[Any], Any], write: Callable[[Any], Any]) -> CoreSchema:
-    return core_schema.no_info_plain_validator_function(
-        read, serialization=core_schema.plain_serializer_function_ser_schema(write)
-    )
+def at_least_one(what: str) -> BeforeValidator:
+    """Refuses an empty list or table of ``what``."""
+
+    def some(value: Any) -> Any:
+        if value in ([], {}):
+            raise fault(f"must have at least one {what}; received none")
+        return value
+
+    return BeforeValidator(some)
 
 
 def _vector(dimension: str) -> Row:
@@ -307,6 +297,7 @@ Density = Annotated[float, Quantity("density", "positive")]
 DensityOrZero = Annotated[float, Quantity("density", "nonnegative")]
 Rate = Annotated[float, Quantity("rate", "nonnegative")]
 Angle = Annotated[float, Quantity("angle")]
+PositiveAngle = Annotated[float, Quantity("angle", "positive")]
 Vector3 = tuple[float, float, float]
 FluxDensity = Annotated[Vector3, _vector("flux_density")]
 Place = Annotated[Vector3, _vector("length")]

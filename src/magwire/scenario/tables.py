@@ -6,7 +6,7 @@ import itertools
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field
 
 from magwire.scenario.quantity import (
     Acceleration,
@@ -28,7 +28,7 @@ from magwire.scenario.quantity import (
     Time,
     Vector3,
     Whole,
-    fault,
+    at_least_one,
 )
 
 if TYPE_CHECKING:
@@ -51,12 +51,6 @@ class Table(BaseModel):
 def preset(text: Any) -> Any:
     """A default, written as it would be in the file."""
     return Field(default=text)
-
-
-def _some(value: object) -> object:
-    if value == []:
-        raise fault("must have at least one section; received none")
-    return value
 
 
 Nodes = Annotated[int, Whole(4, 100_000)]
@@ -148,7 +142,7 @@ class SectionedWire(Table):
     """A wire of several sections, the proximal one first."""
 
     nodes: Nodes
-    sections: Annotated[tuple[SectionTable, ...], BeforeValidator(_some)]
+    sections: Annotated[tuple[SectionTable, ...], at_least_one("section")]
 
     @property
     def total_length(self) -> float:

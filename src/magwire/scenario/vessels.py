@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
-from pydantic import BeforeValidator, Field
+from pydantic import Field
 
 from magwire.errors import MagwireError
 from magwire.scenario.lumens import LumenTable
-from magwire.scenario.quantity import Quantity, Row, Rows, fault
-from magwire.units import DIMENSIONS, parse, write
+from magwire.scenario.points import unit_faults
+from magwire.scenario.quantity import Quantity, Row, Rows, at_least_one
+from magwire.units import parse, write
 
 if TYPE_CHECKING:
     from magwire.lumen import Lumen
@@ -25,12 +26,6 @@ VECTORS = {"rotation": "angle", "translation": "length"}
 NUMBERS = ("scale", "smoothing")
 SPOTS = ("entrance", "target")
 KEYS = ("file", "units", "radius", *SPOTS, *NUMBERS, *VECTORS)
-
-
-def _some(value: Any) -> Any:
-    if value == {}:
-        raise fault("must have at least one branch; received none")
-    return value
 
 
 def _note(text: str) -> Any:
@@ -47,7 +42,7 @@ class VesselLumen(LumenTable):
 
     shape: Literal["vessel"]
     target: str
-    branches: Annotated[dict[str, Balls], BeforeValidator(_some)]
+    branches: Annotated[dict[str, Balls], at_least_one("branch")]
     file: str | None = _note("centrelines or a surface, in place of branches")
     units: str | None = _note("unit of the numbers in the file, unless it states one")
     radius: str | None = _note("array of the file that holds the radius, or one radius for all")
@@ -153,11 +148,8 @@ def _options(lumen: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
     options: dict[str, Any] = {}
     faults: list[str] = []
     if "units" in lumen:
-        known = DIMENSIONS["length"].units
         options["units"] = lumen["units"]
-        if lumen["units"] not in known:
-            words = ", ".join(f"'{name}'" for name in known)
-            faults.append(f"Input lumen.units must be one of {words}; received {lumen['units']!r}.")
+        faults += unit_faults(lumen["units"])
     for key in (*SPOTS, *VECTORS, *NUMBERS, "radius"):
         if key in lumen:
             try:

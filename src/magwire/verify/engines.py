@@ -75,7 +75,7 @@ def _cantilever(b: float, degrees: float) -> Iterator[Line | Curve]:
     edges = np.array([26, 51]) - 1.5
     weight = 1.0 / (1.0 - (edges[0] / edges[1]) ** 2)
     limit = weight * theirs[1].nodes[-1] + (1.0 - weight) * theirs[0].nodes[-1]
-    ours, seconds = _settle(_wire(L, 51), flux, step, duration)
+    ours, seconds = settle(_wire(L, 51), flux, step, duration)
     source = (
         f"MuJoCo {version('mujoco')}, 26 and 51 nodes extrapolated; with 51 nodes a step takes "
         f"{theirs[1].step_seconds * 1e6:.0f} µs, magwire's {seconds * 1e6:.0f} µs: "
@@ -95,10 +95,25 @@ def _cantilever(b: float, degrees: float) -> Iterator[Line | Curve]:
     yield _shapes(case, theirs[1].nodes, rest.positions)
 
 
-def _settle(wire: Wire, flux: Array, step: float, duration: float) -> tuple[Array, float]:
-    """Tip [m] of a straight wire after a time in a field, and the time that a step took [s]."""
+def settle(wire: Wire, flux: Array, step: float, duration: float) -> tuple[Array, float]:
+    """Let a straight wire go in a field; it is damped as MuJoCo's is.
+
+    Parameters
+    ----------
+    wire
+        The wire.
+    flux
+        Uniform flux density, shape (3,) [T].
+    step, duration
+        Time step, and the time after which to look [s].
+
+    Returns
+    -------
+    tuple
+        Where the tip is, shape (3,) [m], and the wall time that a step took [s].
+    """
     sim = Simulation(wire, Lumen.open_space(), damping=mujoco_rod.DAMPING)
-    system, rest = sim.system, sim.equilibrium(L)
+    system, rest = sim.system, sim.equilibrium(wire.length)
     state, mouth = rest.point.state, rest.point.mouth
     source = UniformField((float(flux[0]), float(flux[1]), float(flux[2])))
     model = (system.rod, sample(system, source, state), system.new_wall(), system.walls)
@@ -118,7 +133,7 @@ def _settle(wire: Wire, flux: Array, step: float, duration: float) -> tuple[Arra
     seconds = (time.perf_counter() - clock) / (steps - 1)
     if tally.counts[0] != steps:
         raise RuntimeError("magwire's cantilever did not come to its last step.")
-    return state.q[-1, :3] * L, seconds
+    return state.q[-1, :3] * wire.length, seconds
 
 
 def _push(feed: float) -> Iterator[Line | Curve]:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
-from typing import Annotated
 
-from cyclopts import App, Parameter
+from cyclopts import App
+
+from magwire.cli.options import Flag
+from magwire.cli.words import say
 
 lumen = App(name="lumen", help="Look into a vessel's file, or write it anew.")
 
@@ -67,10 +68,10 @@ def inspect_lumen(
         smoothing=smoothing,
     )
     for line in lines:
-        sys.stdout.write(line + "\n")
+        say(line)
     if picture is not None:
         commands.picture(vessel, picture, wire)
-        sys.stdout.write(f"{picture}\n")
+        say(str(picture))
 
 
 @lumen.command(name="convert")
@@ -85,7 +86,7 @@ def convert_lumen(
     radius: str | None = None,
     scale: float = 1.0,
     smoothing: float = 0.5,
-    force: Annotated[bool, Parameter(negative="")] = False,
+    force: Flag = False,
 ) -> None:
     """Write the smooth tubes of a file to another one.
 
@@ -98,8 +99,10 @@ def convert_lumen(
         lumen's table of a scenario.
     units
         Unit of the numbers in the file, such as mm; needed unless it states one.
-    entrance, target
-        Name or number of an end, or a point such as "1 mm, 2 mm, 3 mm".
+    entrance
+        Name or number of an end, or a point such as "1 mm, 2 mm, 3 mm"; the widest end if left out.
+    target
+        The same, of the scenario's table; the first outlet if left out.
     radius
         Name of the array that holds the radius, or one radius for all, such as "2 mm".
     scale
@@ -121,4 +124,4 @@ def convert_lumen(
         smoothing=smoothing,
     )
     commands.convert(vessel, commands.spot(target, "--target"), out, force=force)
-    sys.stdout.write(f"{out}\n")
+    say(str(out))

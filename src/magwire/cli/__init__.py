@@ -1,0 +1,62 @@
+"""The command line."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+from cyclopts import App, CycloptsError
+
+import magwire
+from magwire.cli.benchmarks import bench
+from magwire.cli.evidence import reproduce, verify
+from magwire.cli.library import list_scenarios, schema
+from magwire.cli.outlets import plan_outlets
+from magwire.cli.pictures import animate, plot
+from magwire.cli.running import replay, run
+from magwire.cli.sweeps import sweep
+from magwire.cli.vessels import lumen
+from magwire.cli.words import INTERRUPTED, complain
+from magwire.errors import MagwireError
+
+__all__ = ["app", "main"]
+
+app = App(
+    name="magwire",
+    help="Simulate magnetic soft continuum robots in lumens.",
+    version=lambda: magwire.__version__,
+    version_flags=["--version"],
+    result_action="return_value",
+)
+for command in (animate, bench, lumen, plot, replay, reproduce, run, schema, sweep, verify):
+    app.command(command)
+app.command(list_scenarios, name="list")
+app.command(plan_outlets, name="plan")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command.
+
+    Parameters
+    ----------
+    arguments
+        The words after ``magwire``; those of the process if left out.
+
+    Returns
+    -------
+    int
+        Exit status: 0 only if the job did what it says.
+    """
+    words = sys.argv[1:] if arguments is None else list(arguments)
+    try:
+        status = app(words, exit_on_error=False, print_error=False)
+    except KeyboardInterrupt:
+        complain("Interrupted.")
+        return INTERRUPTED
+    except (MagwireError, CycloptsError) as error:
+        complain(str(error))
+        return 1
+    except BrokenPipeError:  # a reader such as head has seen enough
+        sys.stderr.close()
+        return 1
+    return status if isinstance(status, int) else 0

@@ -1,0 +1,156 @@
+"""The commands ``magwire run`` and ``magwire replay``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+from magwire.cli.folders import (
+    FIGURES,
+    PASSIVE,
+    RESULT,
+    SCENARIO,
+    SCHEDULE,
+    check_free,
+    writing_to,
+)
+from magwire.cli.options import Flag, Overrides
+from magwire.cli.words import INTERRUPTED, CommandError, complain, say, say_if_compiling
+
+if TYPE_CHECKING:
+    from magwire.results import Result
+    from magwire.scenario import Scenario
+    from magwire.scenario.job import Job
+
+
+def run(
+    scenario: str,
+    /,
+    *,
+    overrides: Overrides = None,
+    out: Path | None = None,
+    compare: Literal["none"] | None = None,
+    force: Flag = False,
+) -> int:
+    """Run a scenario: result, summary and figure.
+
+    Parameters
+    ----------
+    scenario
+        Name of a scenario of the library, or a TOML file.
+    overrides
+        Keys to set in the scenario, such as wire.radius="0.5 mm".
+    out
+        Folder for the output; NAME-result in the working folder if left out.
+    compare
+        Run the scenario without steering, too, and show both.
+    force
+        Overwrite what a former run left in the folder.
+    """
+    from magwire.scenario import load
+
+    described = load(scenario, overrides or ())
+    if compare is not None and described.navigate.method == "none":
+        raise CommandError(
+            "Option --compare none needs a scenario that is steered; navigate.method is 'none'."
+        )
+    folder = out or Path(f"{Path(scenario).stem}-result")
+    return carry_out(described, folder, compare=compare is not None, force=force)
+
+
+def replay(
+    result: Path,
+    /,
+    *,
+    scale: float = 1.0,
+    resample: str | None = None,
+    overrides: Overrides = None,
+    out: Path | None = None,
+    force: Flag = False,
+) -> int:
+    """Run a result's scenario again in the field that was recorded, whatever the wire does.
+
+    Parameters
+    ----------
+    result
+        Result file, or the folder that holds it.
+    scale
+        Factor on the recorded field, such as 1.03 for a field that is 3 percent too strong.
+    resample
+        Feed between two values of the field that are kept, such as "2 mm"; it is linear between.
+    overrides
+        Keys to set in the scenario, such as wire.youngs_modulus="3.1 MPa".
+    out
+        Folder for the output; NAME-replay in the working folder if left out.
+    force
+        Overwrite what a former run left in the folder.
+    """
+    from magwire.results import Result
+    from magwire.scenario.schedules import replayed
+    from magwire.units import parse
+
+    step = None if resample is None else parse(resample, "length", "--resample")
+    described = replayed(Result.load(result), overrides or (), scale=scale, resample=step)
+    name = result.resolve() if result.is_dir() or result.name != RESULT else result.resolve().parent
+    folder = out or Path(f"{name.stem}-replay")
+    return carry_out(described, folder, force=force)
+
+
+def carry_out(
+    described: Scenario, folder: Path, *, compare: bool = False, force: bool = False
+) -> int:
+    """Run a scenario and leave all that comes of it in a folder; the exit status."""
+    check_free(folder, force=force)
+    job = described.build()
+    with writing_to(folder):
+        for name in (RESULT, PASSIVE, SCHEDULE, *FIGURES):
+            (folder / name).unlink(missing_ok=True)
+        (folder / SCENARIO).write_text(described.to_toml(), encoding="utf-8")
+    results = [simulate(job, folder / RESULT)]
+    if compare and results[0] is not None and results[0].status != "interrupted":
+        results.append(simulate(described.unsteered().build(), folder / PASSIVE))
+    result, *others = results
+    if result is None:
+        complain("The run was interrupted before its first record.")
+        return INTERRUPTED
+    passive = others[0] if others else None
+    steered = described.navigate.method != "none"
+    from magwire import summary
+
+    for line in summary.lines(result, steered=steered, passive=passive):
+        say(line)
+    with writing_to(folder):
+        from magwire import plot as pictures
+        from magwire.scenario import schedule_of, write_schedule
+
+        pictures.save(result.dataset, folder, passive=passive.dataset if passive else None)
+        if steered and result.time.size:
+            write_schedule(schedule_of(result), folder / SCHEDULE)
+    if passive is not None:
+        say(f"{'gained':{summary.COLUMN}}{summary.gain(result, passive)}")
+    say(f"{'written to':{summary.COLUMN}}{folder}")
+    return max(outcome(run) for run in results)
+
+
+def outcome(result: Result | None) -> int:
+    """The exit status of a run, with a word on standard error if it did not reach its end."""
+    if result is None:
+        complain("The run without steering was interrupted before its first record.")
+        return INTERRUPTED
+    if result.status == "complete":
+        return 0
+    complain(result.message or f"The run ended early: {result.status}.")
+    return INTERRUPTED if result.status == "interrupted" else 1
+
+
+def simulate(job: Job, file: Path) -> Result | None:
+    """Run a job with a progress bar; None if it was interrupted before its first record."""
+    from magwire.progress import running
+    from magwire.results import Result
+
+    say_if_compiling()
+    with running(job.feed.duration) as show:
+        try:
+            return job.run(file, watch=show)
+        except KeyboardInterrupt:  # the file says "interrupted" by now
+            return Result.load(file) if file.exists() else None
