@@ -98,6 +98,21 @@ def test_sliding_along_the_wall(name: str, clearance: float) -> None:
     assert go(name, x, backwards * 100.0 * clearance * tangent) == 1.0
 
 
+@pytest.mark.parametrize("name", ["straight", "half-circle", "tapered"])
+@pytest.mark.parametrize("past", [0.05, 0.3, 0.6, 0.95, 1.2])
+@pytest.mark.parametrize("offset", [1e-3, 1.6e-3])
+def test_a_thick_wire_gets_out_past_the_rim(name: str, past: float, offset: float) -> None:
+    lumen, _ = tube(name)
+    curve = lumen.branches[0].curve
+    arc = np.array([lumen.length])
+    end, tangent = curve.at(arc)[0], curve.at(arc, 1)[0, :3]
+    across = np.cross(tangent, [0.3, 0.5, 0.7])
+    across /= np.linalg.norm(across)
+    x = end[:3] + past * end[3] * tangent + (end[3] - 1.05 * offset) * across
+    assert lumen.gap(x[None])[0] > offset
+    assert go(name, x, 0.1 * end[3] * tangent, offset) == 1.0
+
+
 @pytest.mark.parametrize("limit", [0.1, 0.37, 1.0])
 def test_what_others_allow_is_kept(limit: float) -> None:
     x, tangent, _ = inside(tube("straight")[0], 0.5, 0.0, 0)

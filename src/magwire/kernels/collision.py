@@ -14,6 +14,17 @@ from magwire.kernels.vectors import combine, norm, row
 CAUTION = 0.9  # part of the safe distance that one hop uses
 CLOSEST = 0.1  # a step may shrink the clearance to this part of itself, not further
 HOPS = 200
+STEEPEST = 10.0  # largest slope of the gap past an open end, where the radius changes by 0.95
+
+
+@kernel
+def free_way(g, safe, offset):
+    """How far a point may move before what the wall keeps from it, ``offset``, is used up.
+
+    ``safe`` is for a point without one. Past an open end, where it is less than the gap, it may be
+    less than the offset, too, of a point that is clear: there the slope of the gap says how far.
+    """
+    return max(safe - offset, min((g - offset) / STEEPEST, safe))
 
 
 @kernel
@@ -22,7 +33,7 @@ def travel(lumen, x, dx, offset, known, jet, limit):
     length = norm(dx)
     if not (x[0] == known[0] and x[1] == known[1] and x[2] == known[2]):
         query(lumen, x, known, jet)
-    start = known[3] - offset
+    start = free_way(jet[0], known[3], offset)
     part = 0.0
     free = start
     for _ in range(HOPS):
@@ -30,8 +41,8 @@ def travel(lumen, x, dx, offset, known, jet, limit):
         if part >= limit:
             return limit
         here = combine(1.0, x, part, dx)
-        _, _, _, safe = gap_value(lumen, here[0], here[1], here[2])
-        free = safe - offset
+        g, _, _, safe = gap_value(lumen, here[0], here[1], here[2])
+        free = free_way(g, safe, offset)
         if free < CLOSEST * start:
             return part
     return part
