@@ -48,7 +48,8 @@ def test_straight_ahead_takes_no_field(found: dict[str, mw.Prospect]) -> None:
     ahead = found["ahead"]
     assert ahead.reached
     assert ahead.length == pytest.approx(0.05)
-    assert ahead.fed == pytest.approx(0.047)  # one radius before the outlet
+    assert 0.047 <= ahead.fed < 0.0476  # one radius before the outlet, and a record at most
+    assert ahead.came == pytest.approx(ahead.fed)  # straight
     assert ahead.peak_field < 1e-6
     assert ahead.tip_force == ahead.wall_force == 0.0
     assert ahead.clearance == pytest.approx(2.5e-3, abs=2e-5)
@@ -64,7 +65,7 @@ def test_aside_takes_one_and_keeps_the_tip_off_the_wall(found: dict[str, mw.Pros
     assert 1e-4 < aside.peak_field < 0.05
     assert aside.flux_density.max() == aside.peak_field
     assert aside.force.max() == aside.wall_force
-    assert len(aside.feed) == len(aside.flux_density) == len(aside.force)
+    assert len(aside.feed) == len(aside.arc) == len(aside.flux_density) == len(aside.force)
     assert aside.flux_density[aside.feed < 5e-3].max() < 0.2 * aside.peak_field
 
 
@@ -79,7 +80,7 @@ def test_too_weak_a_field_is_the_reason() -> None:
     limit = mw.Demands(max_field=1e-4)
     (prospect,) = [p for p in mw.plan(FORK, WIRE, demands=limit) if p.outlet == "aside"]
     assert not prospect.reached
-    assert 0.01 < prospect.fed < prospect.length
+    assert 0.01 < prospect.came < prospect.length
     assert prospect.peak_field <= 1.001e-4
     assert prospect.reason.split(" of feed ")[0].startswith("At ")
 
@@ -88,6 +89,19 @@ def test_one_tube_has_one_outlet() -> None:
     (prospect,) = mw.plan(mw.Lumen.straight(0.03, 2e-3), WIRE)
     assert prospect.outlet == "outlet"
     assert prospect.reached
+
+
+def test_where_the_tip_is_counts_and_not_how_far_the_wire_is_fed() -> None:
+    """Two wide bends, which the wire cuts: it is at the outlet before it is as long as the way."""
+    curvatures = [[0, 0, 0], [0.01, 60, 0], [0.03, 60, 0], [0.035, -60, 0], [0.06, -60, 0]]
+    bends = mw.Lumen.bends(curvatures, 3e-3)
+    (prospect,) = mw.plan(bends, WIRE)
+    goal = prospect.length - 3e-3
+    assert prospect.reached
+    assert prospect.tip_force == 0.0
+    assert goal <= prospect.came < goal + 1e-3
+    assert prospect.fed < goal - 1e-3
+    assert prospect.came == prospect.arc.max()
 
 
 def test_a_wire_is_made_long_enough_and_stays_the_same_otherwise() -> None:
@@ -111,7 +125,7 @@ def test_map_shows_what_is_needed_and_what_is_not_reached(
     found: dict[str, mw.Prospect],
 ) -> None:
     tubes = {name: path.centreline(200) for name, path in FORK.paths.items()}
-    fields = {p.outlet: (p.feed, p.flux_density) for p in found.values()}
+    fields = {p.outlet: (p.arc, p.flux_density) for p in found.values()}
     parts = {n: maps.shapes.Branch(1e3 * p, 1e3 * r) for n, (p, r) in tubes.items()}
     trunk = maps._needed("ahead", parts, fields)
     own = maps._needed("aside", parts, fields)
@@ -141,7 +155,7 @@ def test_command_on_a_scenario(
     length = 1e3 * load("straight").lumen.build().length
     assert rows[0]["length"] == pytest.approx(length)
     heads = Path("out/plan.csv").read_text().splitlines()[0].split(",")
-    assert heads[:4] == ["outlet", "reached", "length [mm]", "fed [mm]"]
+    assert heads[:5] == ["outlet", "reached", "length [mm]", "fed [mm]", "came [mm]"]
     assert main(["plan", "straight", "--out", "out"]) == 1
     assert "--force" in capsys.readouterr().err
 

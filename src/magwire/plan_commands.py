@@ -36,6 +36,7 @@ COLUMNS = {
     "reached": "",
     "length": "mm",
     "fed": "mm",
+    "came": "mm",
     "narrowest": "mm",
     "narrowest_at": "mm",
     "tightest_bend": "mm",
@@ -110,6 +111,7 @@ def table(prospects: Sequence[Prospect]) -> Table:
     for head in (
         "outlet",
         "reached",
+        "tip at [mm]",
         "fed [mm]",
         "field [mT]",
         "tip force [mN]",
@@ -123,7 +125,8 @@ def table(prospects: Sequence[Prospect]) -> Table:
         shown.add_row(
             escape(p.outlet),
             "[green]yes[/]" if p.reached else "[red]no[/]",
-            f"{1e3 * p.fed:.1f} of {1e3 * p.length:.1f}",
+            f"{1e3 * p.came:.1f} of {1e3 * p.length:.1f}",
+            f"{1e3 * p.fed:.1f}",
             f"{1e3 * p.peak_field:.3g}",
             f"{1e3 * p.tip_force:.3g}",
             f"{1e3 * p.wall_force:.3g}",
@@ -153,7 +156,7 @@ def save(lumen: Lumen, prospects: Sequence[Prospect], folder: Path) -> list[Path
     paths = lumen.paths or {"outlet": lumen.branches[0]}
     maps.save(
         {name: path.centreline() for name, path in paths.items()},
-        {p.outlet: (p.feed, p.flux_density) for p in prospects},
+        {p.outlet: (p.arc, p.flux_density) for p in prospects},
         folder / MAP,
     )
     return [folder / name for name in (*TABLES, MAP)]
@@ -164,6 +167,7 @@ def _row(p: Prospect) -> dict[str, str | float | bool]:
     values = {
         "length": p.length,
         "fed": p.fed,
+        "came": p.came,
         "narrowest": p.narrowest,
         "narrowest_at": p.narrowest_at,
         "tightest_bend": p.bend.radius,

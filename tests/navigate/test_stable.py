@@ -126,6 +126,20 @@ def test_it_looks_ahead_no_farther_than_the_end_of_the_run() -> None:
     assert last.feed[-1] == pytest.approx(0.072)
 
 
+def test_past_the_outlet_the_field_stays_and_on_the_way_back_it_changes_again() -> None:
+    curvatures = [[0.0, 0.0, 0.0], [0.01, 25.0, 0.0], [0.04, 25.0, 0.0]]
+    run = Simulation(paper_wire(), Lumen.bends(curvatures, 3e-3))
+    feed = Feed.table([0.0, 46.0, 46.1, 72.0], [1e-3, 1e-3, -1e-3, -1e-3])
+    navigator = StableNavigator(run.system)
+    result = run.run(feed, navigator, time_step=0.05)
+    assert result.status == "complete", result.message
+    assert result.feed.max() == pytest.approx(0.046, abs=2e-4)
+    assert result.max_tip_force == 0.0
+    past = result.feed > 0.0405
+    assert np.ptp(result.field[past], axis=0).max() < 1e-12
+    assert np.linalg.norm(result.field[-1] - result.field[past][0]) > 1e-3
+
+
 def test_a_limit_on_the_field_is_named_with_the_place() -> None:
     run = simulation("half-circle", paper_wire())
     navigator = StableNavigator(run.system, demands=Demands(max_field=15e-3))

@@ -234,16 +234,21 @@ class Model:
             Two axes across the path, shape (2, 3); the tip's offset in them, shape (2,) [m]; the
             lumen's radius there [m].
         """
+        tip = self._state.q[-1, :3] * self.system.wire.length
+        curve = self.path.branches[0].curve
+        where = np.array([self.tip_arc()])
+        centre, along = curve.at(where)[0], curve.at(where, 1)[0, :3]
+        axes = across(along)
+        return axes, axes @ (tip - centre[:3]), float(centre[3])
+
+    def tip_arc(self) -> float:
+        """How far along the path the tip is [m]."""
         length = self.system.wire.length
         tip = self._state.q[-1, :3]
         _, arc, branch, _ = gap_value(self._tube, *tip)
         if branch < 0:  # far off the path, as in another branch
-            arc = float(self.path.locate(tip[None] * length)[0][0]) / length
-        curve = self.path.branches[0].curve
-        where = np.array([arc * length])
-        centre, along = curve.at(where)[0], curve.at(where, 1)[0, :3]
-        axes = across(along)
-        return axes, axes @ (tip * length - centre[:3]), float(centre[3])
+            return float(self.path.locate(tip[None] * length)[0][0])
+        return float(arc) * length
 
     def expected_tip(self, feed: float) -> Array | None:
         """Position of the tip, shape (3,) [m], if the model is at this feed [m]; otherwise None."""

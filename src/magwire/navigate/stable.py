@@ -150,11 +150,13 @@ class StableNavigator:
         self._begin(self._knots[-1], back)
 
     def _extend(self, end: float) -> None:
-        """Plan on to a feed, as far as it goes."""
+        """Plan on to a feed, as far as it goes; past the path's end the field stays as it is."""
         while self._failure is None:
             last = self._knots[-1]
             left = end - last.feed
             if abs(left) < CLOSE or (left < 0.0) != self._back:
+                return
+            if left > 0.0 and self._is_past_end(last):
                 return
             feed = last.feed + float(np.copysign(min(self.plan_every, abs(left)), left))
             try:
@@ -165,6 +167,11 @@ class StableNavigator:
             else:
                 if self._grows():
                     self._swing()
+
+    def _is_past_end(self, knot: Knot) -> bool:
+        """Whether the tip has left the path, where there is no wall to keep it from."""
+        self.model.return_to(knot.memory)
+        return self.model.tip_arc() > self.model.path.branches[0].length
 
     def _reason(self, failure: NavigationError, last: Knot, feed: float) -> NavigationError:
         """Why there is no field: the limit, if there would be one without."""
