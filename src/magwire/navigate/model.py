@@ -23,6 +23,7 @@ from magwire.navigate.schedule import Schedule
 Array = NDArray[np.float64]
 
 SAME = 1e-9  # feeds that differ by less are the same [m]
+MAGNETS = 20.0  # see Model.reach
 GLANCE = 10  # steps between two looks at the tip while the wire moves
 
 
@@ -91,6 +92,9 @@ class Model:
         Length of wire inside the lumen [m].
     flux
         Uniform flux density, shape (3,) [T].
+    reach
+        Length in which plans are measured [m]: that of twenty magnets, or of the wire if it is
+        shorter. What the wire is longer plays no part at the tip.
     solves
         Equilibria solved so far.
 
@@ -105,6 +109,8 @@ class Model:
             raise InputError("Input wire of a navigator must be magnetised; received none.")
         self.system = system
         self.path = path
+        magnets = sum(s.length for s in system.wire.sections if any(s.magnetization))
+        self.reach = min(system.wire.length, MAGNETS * magnets)
         self.feed = 0.0
         self.flux: Array = np.zeros(3)
         self.solves = 0

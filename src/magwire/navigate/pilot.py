@@ -29,7 +29,7 @@ HALVINGS = 6
 ROUND_OFF = 1e-4  # a rise of the merit by less does not matter
 MISSED = 0.1  # part of the lumen's radius, or of the margin, by which a constraint may be missed
 SLIP = 0.2  # change of the tip's offset from one feed to the next that is a slip, in that radius
-INERTIA = 0.015  # feed over which the field may follow what is asked for, in the wire's length
+INERTIA = 0.015  # feed over which the field may follow what is asked for, in the model's reach
 TRIES = 12  # of a feed at which the wire is lost, each with a larger margin before it
 STIFFER = 1.15  # eigenvalue for a retry, over the one with which the wire was lost
 FIRM = 500.0  # see Pilot.firm
@@ -78,7 +78,7 @@ class Pilot:
         self.firm = firm
         self.model = model
         self.programme = programme
-        self._length = model.system.wire.length
+        self._length = model.reach
         self.forget()
 
     def forget(self) -> None:

@@ -24,8 +24,8 @@ from magwire.navigate.swing import Swings
 
 Array = NDArray[np.float64]
 
-REFERENCE = 100.0  # field of order one, in EI/(M L^2)
-AHEAD = 0.15  # feed that the plan runs ahead, in the wire's length
+REFERENCE = 100.0  # field of order one, in EI/(M L^2) with the model's reach as L
+AHEAD = 0.15  # feed that the plan runs ahead, in that length
 SCOUT = 0.15  # feed beyond the plan's end in which the wall must come to hold the wire, in that
 GROWTH = 2.0  # of the field over SPAN with which another course is looked for
 SPAN = 0.1  # feed, in that length
@@ -61,7 +61,6 @@ class StableNavigator:
         plan_every: float | None = None,
     ) -> None:
         path = system.path if path is None else path
-        self._length = system.wire.length
         if len(path.branches) != 1:
             raise InputError(
                 "Input path of StableNavigator must have one branch; "
@@ -70,6 +69,7 @@ class StableNavigator:
         length = 5e-3 * system.wire.length if plan_every is None else plan_every
         self.plan_every = positive("StableNavigator", "plan_every", length, "m")
         self.model = Model(system, path)
+        self._length = self.model.reach
         self._keep_to(Demands() if demands is None else demands)
         self._begin(Knot(0.0, self.model.remember(), None), back=False)
 
@@ -116,9 +116,10 @@ class StableNavigator:
     def _keep_to(self, demands: Demands) -> None:
         """Plan fields that meet these demands from now on."""
         self.demands, system = demands, self.model.system
+        longer = system.wire.length / self.model.reach
         programme = Programme(
             demands,
-            REFERENCE * system.scales.flux_density,
+            REFERENCE * system.scales.flux_density * longer**2,
             system.wire.radius if system.contact.wall == "surface" else 0.0,
         )
         unlimited = replace(programme, demands=replace(demands, max_field=float("inf")))
@@ -217,7 +218,7 @@ class StableNavigator:
         then back from there.
         """
         scout, last = self._scout, knots[-1]
-        farthest = self._length - self.plan_every
+        farthest = self.model.system.wire.length - self.plan_every
         scout.forget()
         found: list[Knot] = []
         try:
