@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import pytest
 
 import magwire as mw
 from magwire.cli import main
+from magwire.plan_commands import _wire
 from magwire.planning import fitted
 from magwire.plot import prospects as maps
 from magwire.scenario import load
@@ -33,6 +35,12 @@ FORK = mw.Lumen.tree(
         ),
         "thin": mw.Lumen.through([[0.03, 0, 0], [0.035, -0.006, 0], [0.04, -0.02, 0]], 0.45e-3),
     }
+)
+CORONARY = Path(__file__).parents[1] / "examples/data/coronary_lca_centerlines_multimoda.vtp"
+SLOW = pytest.mark.skipif("MAGWIRE_SLOW" not in os.environ, reason="a minute; set MAGWIRE_SLOW")
+PATIENT = pytest.mark.skipif(
+    not {"MAGWIRE_SLOW", "MAGWIRE_VESSELS"} <= set(os.environ),
+    reason="needs MAGWIRE_SLOW, and MAGWIRE_VESSELS to name a folder of vessels",
 )
 
 
@@ -102,6 +110,45 @@ def test_where_the_tip_is_counts_and_not_how_far_the_wire_is_fed() -> None:
     assert goal <= prospect.came < goal + 1e-3
     assert prospect.fed < goal - 1e-3
     assert prospect.came == prospect.arc.max()
+
+
+def reached_without_a_touch(lumen: mw.Lumen, outlet: str) -> None:
+    """A wire of 0.6 mm gets there at once, its tip without a force, all of it clear of the wall."""
+    words = {"diameter": "0.6 mm", "magnet": "3 mm", "modulus": None, "magnetization": None}
+    wire = _wire(words, lumen)
+    alone = replace(lumen, paths={outlet: lumen.paths[outlet]}, target=outlet)
+    (prospect,) = mw.plan(alone, wire)
+    assert prospect.reached, prospect.reason
+    assert prospect.reason == ""
+    assert prospect.tip_force == 0.0
+    assert prospect.clearance > 0.0
+    assert prospect.wall_force > 0.0
+    assert prospect.peak_field < 0.08
+
+
+@pytest.mark.parametrize(
+    "outlet", ["end-6", *(pytest.param(f"end-{k}", marks=SLOW) for k in (2, 3, 4, 5))]
+)
+def test_a_patients_coronary_arteries_are_reached_without_a_touch(outlet: str) -> None:
+    vessel = mw.Vessel.read(CORONARY, "mm", entrance=(19.2e-3, -188.6e-3, 1751.9e-3))
+    reached_without_a_touch(vessel.lumen(), outlet)
+
+
+@PATIENT
+@pytest.mark.parametrize("outlet", ["end-2", "end-3"])
+def test_bends_of_1_mm_in_a_coronary_bifurcation_are_passed(outlet: str) -> None:
+    folder = Path(os.environ["MAGWIRE_VESSELS"])
+    lumen = mw.Vessel.read(folder / "coronary_721A_centreline_dbihar.vtk", "mm").lumen()
+    reached_without_a_touch(lumen, outlet)
+
+
+def test_sharp_bends_make_the_mesh_finer() -> None:
+    words = {"diameter": "1 mm", "magnet": "5 mm", "modulus": None, "magnetization": None}
+    assert _wire(words, mw.Lumen.straight(0.05, 2e-3)).edge_length == pytest.approx(0.5e-3)
+    bend = mw.Lumen.half_circle(2.5e-3, 0.6e-3)
+    assert _wire(words, bend).edge_length == pytest.approx(0.2236e-3, rel=0.05)
+    sag = _wire(words, bend).edge_length ** 2 / (8.0 * bend.bend_radius()[0].radius)
+    assert sag == pytest.approx(0.025 * 0.1e-3, rel=0.1)
 
 
 def test_a_wire_is_made_long_enough_and_stays_the_same_otherwise() -> None:

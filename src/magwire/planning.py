@@ -25,6 +25,7 @@ FINEST = 5e-3  # that feed at most, over the wire's length
 SPEED = 0.01  # wire lengths in a second; there is no inertia
 PART = 0.25  # activation gap at most, over the clearance at the narrowest place
 GAP = 1e-4  # activation gap at most [m]
+HARD = 0.01  # stiffness of the wall's barrier, over Young's modulus of the wire
 ATTEMPTS = 3  # in one place
 SLACK = 1.1  # feed at most, over the length of the way: a wire may lie on the outside of bends
 
@@ -97,7 +98,8 @@ def plan(
     demands
         What the field must keep to, such as its largest value.
     contact
-        The wall's barrier; one whose activation gap fits the narrowest place if left out.
+        The wall's barrier. If left out: one whose activation gap fits the narrowest place, as
+        stiff as it takes to bend the wire around bends of a few of its radii.
     watch
         Called with the name of each outlet before it is tried.
 
@@ -180,7 +182,7 @@ def _prospect(
             f"{2e3 * nothing.narrowest:.4g} mm at {1e3 * nothing.narrowest_at:.4g} mm.",
         )
     if contact is None:
-        contact = Barrier(activation_gap=min(GAP, PART * room))
+        contact = Barrier(HARD * wire.body.youngs_modulus, min(GAP, PART * room))
     goal = way.length - float(radii[-1])
     long = fitted(wire, SLACK * way.length)
     every = min(FINEST * long.length, PACE * float(np.quantile(radii, 0.25)))

@@ -181,7 +181,7 @@ class StableNavigator:
             return failure
         self._scout.forget()
         try:
-            _, knot = self._scout.advance(last, feed)
+            *_, knot = self._scout.advance(last, feed)
         except NavigationError:
             return failure
         needed = norm(knot.flux) / self.demands.weakening
@@ -225,11 +225,11 @@ class StableNavigator:
             while not self._swings.is_held(last.view):
                 if last.feed > min(knots[-1].feed + SCOUT * self._length, farthest):
                     return []
-                _, last = scout.advance(last, last.feed + self.plan_every)
+                *_, last = scout.advance(last, last.feed + self.plan_every)
             scout.forget()
             while self._swings.is_held(last.view) and last.feed > knots[0].feed:
                 found.insert(0, last)
-                found[0], last = scout.advance(last, last.feed - self.plan_every)
+                found[0], *_, last = scout.advance(last, last.feed - self.plan_every)
         except NavigationError:
             pass
         return found
