@@ -145,10 +145,11 @@ def test_bends_of_1_mm_in_a_coronary_bifurcation_are_passed(outlet: str) -> None
 def test_sharp_bends_make_the_mesh_finer() -> None:
     words = {"diameter": "1 mm", "magnet": "5 mm", "modulus": None, "magnetization": None}
     assert _wire(words, mw.Lumen.straight(0.05, 2e-3)).edge_length == pytest.approx(0.5e-3)
-    bend = mw.Lumen.half_circle(2.5e-3, 0.6e-3)
-    assert _wire(words, bend).edge_length == pytest.approx(0.2236e-3, rel=0.05)
+    bend = mw.Lumen.half_circle(2.5e-3, 0.7e-3)
     sag = _wire(words, bend).edge_length ** 2 / (8.0 * bend.bend_radius()[0].radius)
-    assert sag == pytest.approx(0.025 * 0.1e-3, rel=0.1)
+    assert sag == pytest.approx(0.025 * 0.2e-3, rel=0.1)
+    tight = mw.Lumen.half_circle(2.5e-3, 0.501e-3)  # it hardly fits: no end of nodes
+    assert _wire(words, tight).edge_length == pytest.approx(0.25e-3, rel=0.05)
 
 
 def test_a_wire_is_made_long_enough_and_stays_the_same_otherwise() -> None:

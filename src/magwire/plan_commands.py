@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 TABLES, MAP = ("plan.csv", "plan.json"), "plan.png"
 FINE = 0.2  # edge length at least, over the smallest radius of the lumen
 SAG = 0.025  # of an edge in the tightest bend at most, over the least room for the wire
+FINEST = 0.5  # edge length at least, over the radius of the wire
 MAGNET = 10.0  # length of the magnet, over the radius of the wire, if nothing else is said
 TRUNK = 5.0  # length of a wire before it is fitted to its way, over that of its magnet
 POISSON = 0.5
@@ -199,7 +200,7 @@ def _wire(words: Words, lumen: Lumen) -> Wire:
     edge = min(max(radius, FINE * lumen.narrowest), magnet)
     room, bend = lumen.narrowest - radius, min(bend.radius for bend in lumen.bend_radius())
     if room > 0.0:
-        edge = min(edge, math.sqrt(8.0 * bend * SAG * room))
+        edge = min(edge, max(FINEST * radius, math.sqrt(8.0 * bend * SAG * room)))
     edges = max(round(TRUNK * magnet / edge), 8)
     return Wire.uniform(
         length=edges * edge,

@@ -33,9 +33,7 @@ OFF = 0.6  # part of the field's tolerance that is asked for while the wire swin
 SUPPORT = 20.0  # eigenvalue above which the wall must be holding the wire, in stability margins
 PRESS = 1.25  # field in which the wire arrives, over the least that holds it there
 ROUND = 1e-9  # round-off of feeds [m]
-SPARSE = (
-    0.02  # feed between the fields that a course must also be able to do with, in the model's reach
-)
+SPARSE = 0.02  # feed between the fields that a course must also do with, in the model's reach
 LENGTH = 0.02  # of feed for the swing, in that length
 LEAD = 0.04  # of feed for the way to its start
 STEP = 0.02  # time step of a trial [s]
