@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 TABLES, MAP = ("plan.csv", "plan.json"), "plan.png"
 FINE = 0.2  # edge length at least, over the smallest radius of the lumen
+SAG = 0.025  # of an edge in the tightest bend at most, over the least room for the wire
+FINEST = 0.5  # edge length at least, over the radius of the wire
 MAGNET = 10.0  # length of the magnet, over the radius of the wire, if nothing else is said
 TRUNK = 5.0  # length of a wire before it is fitted to its way, over that of its magnet
 POISSON = 0.5
@@ -37,6 +39,7 @@ COLUMNS = {
     "reached": "",
     "length": "mm",
     "fed": "mm",
+    "came": "mm",
     "narrowest": "mm",
     "narrowest_at": "mm",
     "tightest_bend": "mm",
@@ -111,6 +114,7 @@ def table(prospects: Sequence[Prospect]) -> Table:
     for head in (
         "outlet",
         "reached",
+        "tip at [mm]",
         "fed [mm]",
         "field [mT]",
         "tip force [mN]",
@@ -124,7 +128,8 @@ def table(prospects: Sequence[Prospect]) -> Table:
         shown.add_row(
             escape(p.outlet),
             "[green]yes[/]" if p.reached else "[red]no[/]",
-            f"{1e3 * p.fed:.1f} of {1e3 * p.length:.1f}",
+            f"{1e3 * p.came:.1f} of {1e3 * p.length:.1f}",
+            f"{1e3 * p.fed:.1f}",
             f"{1e3 * p.peak_field:.3g}",
             f"{1e3 * p.tip_force:.3g}",
             f"{1e3 * p.wall_force:.3g}",
@@ -154,7 +159,7 @@ def save(lumen: Lumen, prospects: Sequence[Prospect], folder: Path) -> list[Path
     paths = lumen.paths or {"outlet": lumen.branches[0]}
     maps.save(
         {name: path.centreline() for name, path in paths.items()},
-        {p.outlet: (p.feed, p.flux_density) for p in prospects},
+        {p.outlet: (p.arc, p.flux_density) for p in prospects},
         folder / MAP,
     )
     return [folder / name for name in (*TABLES, MAP)]
@@ -165,6 +170,7 @@ def _row(p: Prospect) -> dict[str, str | float | bool]:
     values = {
         "length": p.length,
         "fed": p.fed,
+        "came": p.came,
         "narrowest": p.narrowest,
         "narrowest_at": p.narrowest_at,
         "tightest_bend": p.bend.radius,
@@ -193,6 +199,9 @@ def _wire(words: Words, lumen: Lumen) -> Wire:
     if words["magnet"] is not None:
         magnet = _read(words, "magnet", "length", "--magnetized-tip")
     edge = min(max(radius, FINE * lumen.narrowest), magnet)
+    room, bend = lumen.narrowest - radius, min(bend.radius for bend in lumen.bend_radius())
+    if room > 0.0:
+        edge = min(edge, max(FINEST * radius, math.sqrt(8.0 * bend * SAG * room)))
     edges = max(round(TRUNK * magnet / edge), 8)
     return Wire.uniform(
         length=edges * edge,

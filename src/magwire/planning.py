@@ -25,7 +25,9 @@ FINEST = 5e-3  # that feed at most, over the wire's length
 SPEED = 0.01  # wire lengths in a second; there is no inertia
 PART = 0.25  # activation gap at most, over the clearance at the narrowest place
 GAP = 1e-4  # activation gap at most [m]
+HARD = 0.01  # stiffness of the wall's barrier, over Young's modulus of the wire
 ATTEMPTS = 3  # in one place
+SLACK = 1.1  # feed at most, over the length of the way: a wire may lie on the outside of bends
 
 
 @dataclass(frozen=True)
@@ -37,9 +39,10 @@ class Prospect:
     outlet
         Its name.
     reached
-        Whether the wire gets there.
-    length, fed
-        Of the way, and how far the wire came [m].
+        Whether the tip gets there, up to one radius before the end.
+    length, fed, came
+        Of the way; how far the wire was fed; and how far along the way the tip came [m]. A wire
+        that cuts the bends is shorter than the way.
     narrowest, narrowest_at
         Smallest radius on the way and the arc parameter where it is [m].
     bend
@@ -52,15 +55,16 @@ class Prospect:
         Smallest clearance, also midway between the nodes [m]; NaN if it did not set out.
     reason
         Why it does not get there; of an outlet that is reached, what was tried again, or "".
-    feed, flux_density, force
-        The same along the way: feed [m], flux density [T] and force on the whole wire [N],
-        shapes (n,).
+    feed, arc, flux_density, force
+        The same along the way: feed [m], how far the tip came [m], flux density [T] and force on
+        the whole wire [N], shapes (n,).
     """
 
     outlet: str
     reached: bool
     length: float
     fed: float
+    came: float
     narrowest: float
     narrowest_at: float
     bend: Bend
@@ -70,6 +74,7 @@ class Prospect:
     clearance: float
     reason: str
     feed: Array = field(repr=False)
+    arc: Array = field(repr=False)
     flux_density: Array = field(repr=False)
     force: Array = field(repr=False)
 
@@ -93,7 +98,8 @@ def plan(
     demands
         What the field must keep to, such as its largest value.
     contact
-        The wall's barrier; one whose activation gap fits the narrowest place if left out.
+        The wall's barrier. If left out: one whose activation gap fits the narrowest place, as
+        stiff as it takes to bend the wire around bends of a few of its radii.
     watch
         Called with the name of each outlet before it is tried.
 
@@ -154,6 +160,7 @@ def _prospect(
         reached=False,
         length=way.length,
         fed=0.0,
+        came=0.0,
         narrowest=float(radii[thin]),
         narrowest_at=float(knots[thin]),
         bend=way.bend_radius(),
@@ -163,6 +170,7 @@ def _prospect(
         clearance=float("nan"),
         reason="",
         feed=none,
+        arc=none,
         flux_density=none,
         force=none,
     )
@@ -174,9 +182,9 @@ def _prospect(
             f"{2e3 * nothing.narrowest:.4g} mm at {1e3 * nothing.narrowest_at:.4g} mm.",
         )
     if contact is None:
-        contact = Barrier(activation_gap=min(GAP, PART * room))
+        contact = Barrier(HARD * wire.body.youngs_modulus, min(GAP, PART * room))
     goal = way.length - float(radii[-1])
-    long = fitted(wire, goal)
+    long = fitted(wire, SLACK * way.length)
     every = min(FINEST * long.length, PACE * float(np.quantile(radii, 0.25)))
     return _travel(nothing, Simulation(long, lumen, contact=contact), demands, (goal, every))
 
@@ -186,25 +194,33 @@ def _travel(
 ) -> Prospect:
     """Steer the wire there, by equilibria: what it takes."""
     goal, every = course
-    feed = Feed(SPEED * simulation.system.wire.length, goal)
+    feed = Feed(SPEED * simulation.system.wire.length, SLACK * nothing.length)
     result = simulation.run(
         feed,
         TipNavigator(demands, update_every=every, plan_every=every, attempts=ATTEMPTS),
         motion="quasi-static",
         record_every=every,
+        until=goal,
     )
+    arc = np.array([simulation.tip_arc(position) for position in result.position])
+    reached = bool(arc[-1] >= goal)
+    reason = result.message
+    if result.status == "complete" and not reached:
+        reason = f"All of the wire is fed, and {1e3 * (goal - arc[-1]):.4g} mm are left. {reason}"
     flux = np.linalg.norm(result.field, axis=1)
     pushes = np.linalg.norm(result.dataset["contact_force"].values, axis=2).sum(axis=1)
     return replace(
         nothing,
-        reached=result.status == "complete",
+        reached=reached,
         fed=float(result.feed.max()),
+        came=float(arc.max()),
         peak_field=float(flux.max()),
         tip_force=result.max_tip_force,
         wall_force=float(pushes.max()),
         clearance=result.smallest_clearance,
-        reason=result.message,
+        reason=reason,
         feed=result.feed,
+        arc=arc,
         flux_density=flux,
         force=pushes,
     )

@@ -101,6 +101,7 @@ class Simulation:
         time_step: float = 0.01,
         record_every: float = 1e-4,
         update_every: float | None = None,
+        until: float | None = None,
         out: str | Path | None = None,
         title: str = "",
         scenario: str = "",
@@ -125,6 +126,9 @@ class Simulation:
         update_every
             Feed between two observations of the navigator [m], at the course's fastest speed; if
             left out, what the navigator asks for, or 0.5 mm.
+        until
+            Arc parameter of the way to the lumen's target [m]: the run ends at the first record
+            whose tip has come so far. If left out, it ends with the feed.
         out
             NetCDF file to write as the run goes; none if left out.
         title, scenario
@@ -171,6 +175,8 @@ class Simulation:
                     if not (inertia or record.stable):
                         writer.close("unstable", UNSTABLE.format(1e3 * record.feed))
                         return writer.result()
+                    if until is not None and self.tip_arc(record.position) >= until:
+                        march.end()
                 converged = march.step == march.steps
                 message = " ".join([*getattr(navigator, "notes", ()), march.message]).strip()
                 writer.close("complete" if converged else "not converged", message)
@@ -223,6 +229,19 @@ class Simulation:
             flux = array("Simulation", "field", field, (3,), "T")
             source = UniformField((float(flux[0]), float(flux[1]), float(flux[2])))
         return find_equilibrium(self.system, source, feed, start=start, twist=twist)
+
+    def tip_arc(self, position: ArrayLike) -> float:
+        """How far the tip has come on the way to the lumen's target, an arc parameter [m].
+
+        A wire that cuts the bends comes farther than it is fed.
+
+        Parameters
+        ----------
+        position
+            Of the nodes, shape (nodes, 3) [m].
+        """
+        nodes = array("Simulation.tip_arc", "position", position, (None, 3), "m")
+        return float(self.system.path.locate(nodes[-1:])[0][0])
 
     def info(self, *, title: str = "", scenario: str = "", motion: Motion = "dynamic") -> RunInfo:
         """What a result file says of the run as a whole."""

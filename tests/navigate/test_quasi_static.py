@@ -84,6 +84,16 @@ def test_records_observations_and_edges_set_the_step() -> None:
     assert sim.run(feed, **settings).steps == 50  # type: ignore[arg-type]
 
 
+def test_a_run_ends_where_its_tip_is_to_come_to() -> None:
+    """In a bend a wire that lies on the outside is fed farther than its tip comes."""
+    sim = simulation("half-circle", paper_wire())
+    result = sim.run(Feed(1e-3, 0.06), motion="quasi-static", record_every=5e-4, until=0.03)
+    arc = [sim.tip_arc(position) for position in result.position]
+    assert result.status == "complete"
+    assert arc[-2] < 0.03 <= arc[-1] < 0.0305
+    assert 0.0305 < result.feed[-1] < 0.04
+
+
 def test_turning_alone_is_done_in_time_steps() -> None:
     sim = Simulation(paper_wire(40), Lumen.straight(L, 3e-3))
     feed = Feed.table([0.0, 2.0], [0.0, 0.0], [0.0, 1.0])

@@ -8,12 +8,14 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
+from magwire.contact import Barrier
 from magwire.engine import Feed
 from magwire.errors import InputError
 from magwire.lumen import Lumen
 from magwire.navigate import NavigationError, Observation, Prescribed, Schedule
 from magwire.navigate.demands import Demands
 from magwire.navigate.stable import StableNavigator
+from magwire.planning import fitted
 from magwire.results import Result
 from magwire.simulation import Simulation
 from magwire.wire import Wire
@@ -124,6 +126,31 @@ def test_it_looks_ahead_no_farther_than_the_end_of_the_run() -> None:
     assert near.feed[-1] == pytest.approx(0.035)
     last = navigator.plan(replace(observation(0.025), goal=0.072), 0.06)
     assert last.feed[-1] == pytest.approx(0.072)
+
+
+def test_past_the_outlet_the_field_stays_and_on_the_way_back_it_changes_again() -> None:
+    curvatures = [[0.0, 0.0, 0.0], [0.01, 25.0, 0.0], [0.04, 25.0, 0.0]]
+    run = Simulation(paper_wire(), Lumen.bends(curvatures, 3e-3))
+    feed = Feed.table([0.0, 46.0, 46.1, 72.0], [1e-3, 1e-3, -1e-3, -1e-3])
+    navigator = StableNavigator(run.system)
+    result = run.run(feed, navigator, time_step=0.05)
+    assert result.status == "complete", result.message
+    assert result.feed.max() == pytest.approx(0.046, abs=2e-4)
+    assert result.max_tip_force == 0.0
+    past = result.feed > 0.0405
+    assert np.ptp(result.field[past], axis=0).max() < 1e-12
+    assert np.linalg.norm(result.field[-1] - result.field[past][0]) > 1e-3
+
+
+def test_a_longer_wire_is_steered_like_a_shorter_one() -> None:
+    """What lies far behind the tip, still on the guide, is no reason for another field."""
+    course = []
+    for wire in (paper_wire(), fitted(paper_wire(), 0.22)):
+        run = Simulation(wire, Lumen.half_circle(0.025, 3e-3), contact=Barrier(wall="centreline"))
+        navigator = StableNavigator(run.system, plan_every=5e-4)
+        course.append(navigator.plan(observation(0.0), 0.03))
+    short, long = (schedule.at(np.arange(0.005, 0.03, 1e-3)) for schedule in course)
+    np.testing.assert_allclose(long, short, atol=1e-2 * np.abs(short).max())
 
 
 def test_a_limit_on_the_field_is_named_with_the_place() -> None:

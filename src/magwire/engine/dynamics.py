@@ -269,6 +269,10 @@ class March:
             totals=self.totals,
         )
 
+    def end(self) -> None:
+        """Make this the last step of the course."""
+        self.steps = self.step
+
     def records(self, every: int) -> Iterator[Record]:
         """March to the end, with a record at the start and after every so many steps."""
         yield self.record()

@@ -23,6 +23,7 @@ from magwire.navigate.schedule import Schedule
 Array = NDArray[np.float64]
 
 SAME = 1e-9  # feeds that differ by less are the same [m]
+MAGNETS = 20.0  # see Model.reach
 GLANCE = 10  # steps between two looks at the tip while the wire moves
 
 
@@ -91,6 +92,9 @@ class Model:
         Length of wire inside the lumen [m].
     flux
         Uniform flux density, shape (3,) [T].
+    reach
+        Length in which plans are measured [m]: that of twenty magnets, or of the wire if it is
+        shorter. What the wire is longer plays no part at the tip.
     solves
         Equilibria solved so far.
 
@@ -105,6 +109,8 @@ class Model:
             raise InputError("Input wire of a navigator must be magnetised; received none.")
         self.system = system
         self.path = path
+        magnets = sum(s.length for s in system.wire.sections if any(s.magnetization))
+        self.reach = min(system.wire.length, MAGNETS * magnets)
         self.feed = 0.0
         self.flux: Array = np.zeros(3)
         self.solves = 0
@@ -234,16 +240,21 @@ class Model:
             Two axes across the path, shape (2, 3); the tip's offset in them, shape (2,) [m]; the
             lumen's radius there [m].
         """
+        tip = self._state.q[-1, :3] * self.system.wire.length
+        curve = self.path.branches[0].curve
+        where = np.array([self.tip_arc()])
+        centre, along = curve.at(where)[0], curve.at(where, 1)[0, :3]
+        axes = across(along)
+        return axes, axes @ (tip - centre[:3]), float(centre[3])
+
+    def tip_arc(self) -> float:
+        """How far along the path the tip is [m]."""
         length = self.system.wire.length
         tip = self._state.q[-1, :3]
         _, arc, branch, _ = gap_value(self._tube, *tip)
         if branch < 0:  # far off the path, as in another branch
-            arc = float(self.path.locate(tip[None] * length)[0][0]) / length
-        curve = self.path.branches[0].curve
-        where = np.array([arc * length])
-        centre, along = curve.at(where)[0], curve.at(where, 1)[0, :3]
-        axes = across(along)
-        return axes, axes @ (tip * length - centre[:3]), float(centre[3])
+            return float(self.path.locate(tip[None] * length)[0][0])
+        return float(arc) * length
 
     def expected_tip(self, feed: float) -> Array | None:
         """Position of the tip, shape (3,) [m], if the model is at this feed [m]; otherwise None."""

@@ -27,12 +27,13 @@ TRUST = 0.3  # largest change of a component of the field in one programme, in t
 LEAST_TRUST = 2e-3
 HALVINGS = 6
 ROUND_OFF = 1e-4  # a rise of the merit by less does not matter
-MISSED = 0.1  # part of the lumen's radius, or of the margin, by which a constraint may be missed
+MISSED = 0.1  # part of the way to the wall, or of the margin, by which a constraint may be missed
 SLIP = 0.2  # change of the tip's offset from one feed to the next that is a slip, in that radius
-INERTIA = 0.015  # feed over which the field may follow what is asked for, in the wire's length
+INERTIA = 0.015  # feed over which the field may follow what is asked for, in the model's reach
 TRIES = 12  # of a feed at which the wire is lost, each with a larger margin before it
 STIFFER = 1.15  # eigenvalue for a retry, over the one with which the wire was lost
 FIRM = 500.0  # see Pilot.firm
+HALVES = 2  # how often the way to a feed is halved, where the wall holds a wire that is lost
 RELAXING = 0.95  # of that larger margin from one planned feed to the next
 
 
@@ -78,28 +79,40 @@ class Pilot:
         self.firm = firm
         self.model = model
         self.programme = programme
-        self._length = model.system.wire.length
+        self._length = model.reach
         self.forget()
 
     def forget(self) -> None:
         """Start afresh: what was learned of the wire before is of no use elsewhere."""
         self._margin, self._trust = self.programme.demands.stability_margin, TRUST
 
-    def advance(self, last: Knot, feed: float) -> tuple[Knot, Knot]:
+    def advance(self, last: Knot, feed: float, halves: int = HALVES) -> list[Knot]:
         """Feed the model on from a knot, and find the field there.
 
-        A wire that is lost on the way is made stiffer before.
+        A wire that is lost on the way is made stiffer before. Where the wall already makes it stiff
+        and that does not help, the field is too slow, and the way is halved.
 
         Returns
         -------
-        tuple
-            The last knot, with the field that it takes to get on from there, and the next one.
+        list
+            The last knot, with the field that it takes to get on from there; knots on a way that
+            was halved; and the one at the feed.
 
         Raises
         ------
         NavigationError
             If no field does what is asked for.
         """
+        try:
+            return self._step(last, feed)
+        except NavigationError:
+            if halves == 0 or last.view is None or not self._is_firm(last.view.eigenvalue):
+                raise
+        first = self.advance(last, 0.5 * (last.feed + feed), halves - 1)
+        return [*first[:-1], *self.advance(first[-1], feed, halves - 1)]
+
+    def _step(self, last: Knot, feed: float) -> list[Knot]:
+        """Feed the model on at once, after making it as stiff as it takes."""
         model, moved = self.model, abs(feed - last.feed)
         model.return_to(last.memory)
         for _ in range(TRIES):
@@ -110,7 +123,7 @@ class Pilot:
             else:
                 demanded = self.programme.demands.stability_margin
                 self._margin = max(demanded, RELAXING * self._margin)
-                return last, Knot(feed, model.remember(), view)
+                return [last, Knot(feed, model.remember(), view)]
             if last.view is None:
                 break
             self._margin = self._stiffer(last.view.eigenvalue)
@@ -122,8 +135,12 @@ class Pilot:
 
     def _stiffer(self, eigenvalue: float) -> float:
         """The margin with which to try again after the wire was lost with this eigenvalue."""
-        firm = eigenvalue > self.firm * self.programme.demands.stability_margin
-        return max((STIFFER if firm else 2.0) * self._margin, STIFFER * eigenvalue)
+        faster = STIFFER if self._is_firm(eigenvalue) else 2.0
+        return max(faster * self._margin, STIFFER * eigenvalue)
+
+    def _is_firm(self, eigenvalue: float) -> bool:
+        """Whether the wall makes the wire stiff."""
+        return eigenvalue > self.firm * self.programme.demands.stability_margin
 
     def _reach(self, feed: float, last: Knot, moved: float) -> View | None:
         """Feed the model on and find the field there; the view there, if there is anything."""
@@ -199,7 +216,7 @@ class Pilot:
         weak = demands.weakening
         flux, room = norm(view.flux) / weak, programme.room(view)
         planned = norm(view.offset + (1.0 / weak - 1.0) * (view.offset_by_flux @ view.flux))
-        missed = MISSED * view.radius
+        missed = MISSED * (view.radius - programme.keep_off)
         if planned > room + missed or view.distance > programme.wider_room(view) + missed:
             raise NavigationError(
                 f"{where} no stable field was found that keeps the tip within {room * 1e3:.3g} mm "

@@ -24,8 +24,8 @@ from magwire.navigate.swing import Swings
 
 Array = NDArray[np.float64]
 
-REFERENCE = 100.0  # field of order one, in EI/(M L^2)
-AHEAD = 0.15  # feed that the plan runs ahead, in the wire's length
+REFERENCE = 100.0  # field of order one, in EI/(M L^2) with the model's reach as L
+AHEAD = 0.15  # feed that the plan runs ahead, in that length
 SCOUT = 0.15  # feed beyond the plan's end in which the wall must come to hold the wire, in that
 GROWTH = 2.0  # of the field over SPAN with which another course is looked for
 SPAN = 0.1  # feed, in that length
@@ -61,7 +61,6 @@ class StableNavigator:
         plan_every: float | None = None,
     ) -> None:
         path = system.path if path is None else path
-        self._length = system.wire.length
         if len(path.branches) != 1:
             raise InputError(
                 "Input path of StableNavigator must have one branch; "
@@ -70,6 +69,7 @@ class StableNavigator:
         length = 5e-3 * system.wire.length if plan_every is None else plan_every
         self.plan_every = positive("StableNavigator", "plan_every", length, "m")
         self.model = Model(system, path)
+        self._length = self.model.reach
         self._keep_to(Demands() if demands is None else demands)
         self._begin(Knot(0.0, self.model.remember(), None), back=False)
 
@@ -116,9 +116,10 @@ class StableNavigator:
     def _keep_to(self, demands: Demands) -> None:
         """Plan fields that meet these demands from now on."""
         self.demands, system = demands, self.model.system
+        longer = system.wire.length / self.model.reach
         programme = Programme(
             demands,
-            REFERENCE * system.scales.flux_density,
+            REFERENCE * system.scales.flux_density * longer**2,
             system.wire.radius if system.contact.wall == "surface" else 0.0,
         )
         unlimited = replace(programme, demands=replace(demands, max_field=float("inf")))
@@ -150,11 +151,13 @@ class StableNavigator:
         self._begin(self._knots[-1], back)
 
     def _extend(self, end: float) -> None:
-        """Plan on to a feed, as far as it goes."""
+        """Plan on to a feed, as far as it goes; past the path's end the field stays as it is."""
         while self._failure is None:
             last = self._knots[-1]
             left = end - last.feed
             if abs(left) < CLOSE or (left < 0.0) != self._back:
+                return
+            if left > 0.0 and self._is_past_end(last):
                 return
             feed = last.feed + float(np.copysign(min(self.plan_every, abs(left)), left))
             try:
@@ -166,6 +169,11 @@ class StableNavigator:
                 if self._grows():
                     self._swing()
 
+    def _is_past_end(self, knot: Knot) -> bool:
+        """Whether the tip has left the path, where there is no wall to keep it from."""
+        self.model.return_to(knot.memory)
+        return self.model.tip_arc() > self.model.path.branches[0].length
+
     def _reason(self, failure: NavigationError, last: Knot, feed: float) -> NavigationError:
         """Why there is no field: the limit, if there would be one without."""
         limit = self.demands.max_field
@@ -173,7 +181,7 @@ class StableNavigator:
             return failure
         self._scout.forget()
         try:
-            _, knot = self._scout.advance(last, feed)
+            *_, knot = self._scout.advance(last, feed)
         except NavigationError:
             return failure
         needed = norm(knot.flux) / self.demands.weakening
@@ -210,18 +218,18 @@ class StableNavigator:
         then back from there.
         """
         scout, last = self._scout, knots[-1]
-        farthest = self._length - self.plan_every
+        farthest = self.model.system.wire.length - self.plan_every
         scout.forget()
         found: list[Knot] = []
         try:
             while not self._swings.is_held(last.view):
                 if last.feed > min(knots[-1].feed + SCOUT * self._length, farthest):
                     return []
-                _, last = scout.advance(last, last.feed + self.plan_every)
+                *_, last = scout.advance(last, last.feed + self.plan_every)
             scout.forget()
             while self._swings.is_held(last.view) and last.feed > knots[0].feed:
                 found.insert(0, last)
-                found[0], last = scout.advance(last, last.feed - self.plan_every)
+                found[0], *_, last = scout.advance(last, last.feed - self.plan_every)
         except NavigationError:
             pass
         return found

@@ -33,8 +33,8 @@ OFF = 0.6  # part of the field's tolerance that is asked for while the wire swin
 SUPPORT = 20.0  # eigenvalue above which the wall must be holding the wire, in stability margins
 PRESS = 1.25  # field in which the wire arrives, over the least that holds it there
 ROUND = 1e-9  # round-off of feeds [m]
-SPARSE = 0.02  # feed between the fields that a course must also be able to do with, in that length
-LENGTH = 0.02  # of feed for the swing, in the wire's length
+SPARSE = 0.02  # feed between the fields that a course must also do with, in the model's reach
+LENGTH = 0.02  # of feed for the swing, in that length
 LEAD = 0.04  # of feed for the way to its start
 STEP = 0.02  # time step of a trial [s]
 PROGRAMMES = 12  # for one place, at most
@@ -64,8 +64,8 @@ class Swings:
     def __init__(self, model: Model, programme: Programme) -> None:
         self.model = model
         self.programme = programme
-        self._length = model.system.wire.length
-        self.speed = 0.01 * self._length
+        self._length = model.reach
+        self.speed = 0.01 * model.system.wire.length
 
     def find(self, free: Sequence[Knot], held: Sequence[Knot], highest: float) -> list[Knot] | None:
         """The course with the least field that begins with the wire free and ends with it held.

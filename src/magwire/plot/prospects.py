@@ -32,8 +32,8 @@ def draw(
     tubes
         Points, shape (q, 3), and radius, shape (q,), of the way to each outlet by its name [m].
     fields
-        Feed [m] and flux density [T] on the way to each outlet, shapes (n,); what lies past the
-        last feed is not reached. On a part that ways share, the largest field counts.
+        How far the tip came [m] and flux density [T] on the way to each outlet, shapes (n,); what
+        lies past the farthest is not reached. On a part that ways share, the largest field counts.
 
     Returns
     -------
@@ -74,15 +74,16 @@ def _needed(
     """Largest flux density at each point of a way [mT]; NaN where no wire got."""
     own = parts[name]
     needed = np.full(len(own.points), np.nan)
-    for other, (feed, flux) in fields.items():
-        if len(feed) == 0:
+    for other, (arc, flux) in fields.items():
+        if len(arc) == 0:
             continue
         end = len(own.points)
         if other != name:
             end = shapes.leaves(own, [parts[other]]) + 1
-        far = np.maximum.accumulate(feed)  # of what was fed twice, the largest field counts
+        far = np.maximum.accumulate(arc)  # of where the tip was twice, the last field counts
         along = shapes.arcs(own)[:end]
-        there = np.array([flux[far <= 1e-3 * s + 1e-12][-1] for s in along])
+        last = np.searchsorted(far, 1e-3 * along + 1e-12, side="right") - 1
+        there = flux[np.maximum(last, 0)]
         there[1e-3 * along > far[-1] + 1e-3 * own.radius[:end]] = np.nan
         needed[:end] = np.fmax(needed[:end], 1e3 * there)
     return needed
