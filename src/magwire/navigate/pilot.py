@@ -241,7 +241,10 @@ class Pilot:
         flux, room = norm(view.flux) / weak, programme.room(view)
         planned = norm(view.offset + (1.0 / weak - 1.0) * (view.offset_by_flux @ view.flux))
         missed = MISSED * view.radius
-        if planned > room + missed or view.distance > programme.wider_room(view) + missed:
+        touches = view.radius - programme.keep_off - self.model.system.contact.activation_gap
+        if planned > min(room + missed, touches) or view.distance > min(
+            programme.wider_room(view) + missed, touches
+        ):
             raise NavigationError(
                 f"{where} no stable field was found that keeps the tip within {room * 1e3:.3g} mm "
                 f"of the centreline; with {flux * 1e3:.3g} mT it is {planned * 1e3:.3g} mm away."

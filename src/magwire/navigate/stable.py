@@ -177,6 +177,8 @@ class StableNavigator:
         except NavigationError:
             return failure
         needed = norm(knot.flux) / self.demands.weakening
+        if needed <= limit:
+            return failure
         return NavigationError(
             f"At {feed * 1e3:.4g} mm of feed the tip needs {needed * 1e3:.3g} mT; the limit is "
             f"{limit * 1e3:.3g} mT."
