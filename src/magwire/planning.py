@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
@@ -93,7 +94,7 @@ def plan(
     demands
         What the field must keep to, such as its largest value.
     contact
-        The wall's barrier; one whose activation gap fits the narrowest place if left out.
+        The wall's barrier; one that fits the narrowest place and the tightest bend if left out.
     watch
         Called with the name of each outlet before it is tried.
 
@@ -140,6 +141,27 @@ def fitted(wire: Wire, length: float) -> Wire:
     return Wire((grown, *wire.sections[1:]), count + 1)
 
 
+def firm_wall(wire: Wire, bend: float, gap: float) -> Barrier:
+    """A barrier that bends the wire around a bend while it keeps it off by a quarter of its gap.
+
+    Middles between the nodes cut the inside of a bend: a wall that lets the nodes come much closer
+    than its activation gap would be cut by them. To bend a wire of stiffness EI to a radius rho all
+    along takes forces of EI/rho^3 per length.
+
+    Parameters
+    ----------
+    wire
+        The wire.
+    bend
+        Radius of the bend [m].
+    gap
+        Activation gap of the barrier [m].
+    """
+    line_force = wire.bending_stiffness / bend**3
+    slope = gap * (1.5 * math.log(4.0) + 2.25)  # of its energy at a quarter of its gap, over K
+    return Barrier(max(Barrier.stiffness, line_force / slope), gap)
+
+
 def _prospect(
     name: str, lumen: Lumen, wire: Wire, demands: Demands, contact: Barrier | None
 ) -> Prospect:
@@ -174,7 +196,7 @@ def _prospect(
             f"{2e3 * nothing.narrowest:.4g} mm at {1e3 * nothing.narrowest_at:.4g} mm.",
         )
     if contact is None:
-        contact = Barrier(activation_gap=min(GAP, PART * room))
+        contact = firm_wall(wire, nothing.bend.radius, min(GAP, PART * room))
     goal = way.length - float(radii[-1])
     long = fitted(wire, goal)
     every = min(FINEST * long.length, PACE * float(np.quantile(radii, 0.25)))
