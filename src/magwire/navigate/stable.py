@@ -187,13 +187,15 @@ class StableNavigator:
     def _grows(self) -> bool:
         """Whether the field that holds the wire grows so fast that the wall had better do it."""
         last = self._knots[-1]
+        if self._back or self._swings.is_held(last.view):
+            return False
         near = [k for k in self._knots if k.feed >= last.feed - SPAN * self._length - CLOSE]
-        return not self._back and norm(last.flux) > GROWTH * max(norm(near[0].flux), self._searched)
+        return norm(last.flux) > GROWTH * max(norm(near[0].flux), self._searched)
 
     def _swing(self) -> bool:
         """Take the plan back to where the wire can swing onto the wall; whether it can."""
         knots = self._knots
-        if self._back or not self._swings.is_free(knots[-1]):
+        if self._back or self._swings.is_held(knots[-1].view):
             return False
         self._searched = norm(knots[-1].flux)
         course = self._swings.find(knots, self._held(knots), self._searched)

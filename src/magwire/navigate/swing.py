@@ -126,13 +126,6 @@ class Swings:
         """Whether more than the field holds the wire: the wall, or the guide."""
         return view is None or view.eigenvalue > SUPPORT * self.programme.demands.stability_margin
 
-    def is_free(self, knot: Knot) -> bool:
-        """Whether nothing but the field holds the wire, and the guide and it alone touch."""
-        if self.is_held(knot.view):
-            return False
-        self.model.return_to(knot.memory)
-        return not self.model.near_wall
-
     def _holds(self, course: Sequence[Knot]) -> bool:
         """Whether the wire goes along a course, and ends held, in all fields that may come."""
         weak = self.programme.demands.weakening
