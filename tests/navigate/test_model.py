@@ -112,3 +112,12 @@ def test_slopes_are_finite_where_a_field_moves_nothing() -> None:
     assert view is not None
     assert np.all(np.isfinite(view.eigenvalue_by_flux))
     assert view.eigenvalue_by_flux[0] > 0.0
+
+
+def test_it_says_whether_the_wall_presses() -> None:
+    system = simulation("half-circle", paper_wire()).system
+    passive = Model(system, system.lumen)
+    assert not passive.near_wall  # nothing is inside
+    for feed, touches in ((0.08 * L, False), (0.2 * L, True), (0.08 * L, False)):
+        assert passive.feed_to(feed)
+        assert passive.near_wall == touches  # first contact is at 0.12 L

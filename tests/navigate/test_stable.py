@@ -163,6 +163,28 @@ def test_a_limit_on_the_field_is_named_with_the_place() -> None:
     assert 0.0 < float(result.dataset["feed"][-1]) < 0.072
 
 
+def test_a_tip_that_would_touch_is_refused_whatever_the_clearance() -> None:
+    run = simulation("half-circle", paper_wire())
+    system = run.system
+    navigator = StableNavigator(system, demands=Demands(tip_clearance=0.02))
+    navigator.plan(observation(0.0), 0.01)
+    view = navigator.model.look()
+    assert view is not None
+    reach = view.radius - system.contact.activation_gap
+    still = {"offset_by_flux": np.zeros((2, 3)), "eigenvalue": 10.0}
+    fine = replace(view, offset=np.array([reach - 1e-5, 0.0]), **still)
+    navigator._pilot._judge(fine, "There")
+    with pytest.raises(NavigationError, match="There no stable field was found"):
+        navigator._pilot._judge(replace(fine, offset=np.array([reach + 1e-5, 0.0])), "There")
+
+
+def test_the_limit_is_the_reason_only_if_more_is_needed() -> None:
+    system = simulation("half-circle", paper_wire()).system
+    navigator = StableNavigator(system, demands=Demands(max_field=15e-3))
+    failure = NavigationError("Something else.")
+    assert navigator._reason(failure, navigator.knot, 5e-4) is failure  # needs no field at all
+
+
 def test_where_no_field_within_the_limit_is_found_it_says_so() -> None:
     system = simulation("helix", paper_wire()).system
     navigator = StableNavigator(system, demands=Demands(max_field=42e-3))

@@ -24,6 +24,7 @@ Array = NDArray[np.float64]
 
 SAME = 1e-9  # feeds that differ by less are the same [m]
 MAGNETS = 20.0  # see Model.reach
+NEAR = 2.0  # to the wall, in activation gaps
 GLANCE = 10  # steps between two looks at the tip while the wire moves
 
 
@@ -129,6 +130,18 @@ class Model:
     def released(self) -> bool:
         """Whether any of the wire is free."""
         return self._held < self.system.wire.nodes
+
+    @property
+    def near_wall(self) -> bool:
+        """Whether the wall presses on the wire anywhere, or is about to."""
+        system = self.system
+        points = self._state.q[self._held + 1 :, :3] * system.wire.length
+        if len(points) == 0:
+            return False
+        keep_off = system.wire.radius if system.contact.wall == "surface" else 0.0
+        return (
+            float(system.lumen.gap(points).min()) < keep_off + NEAR * system.contact.activation_gap
+        )
 
     def feed_to(self, feed: float) -> bool:
         """Feed the wire on (or back) in the field as it is; whether an equilibrium was found."""

@@ -25,7 +25,10 @@ PROGRAMMES = 8  # per planned feed, at most
 SETTLED = 5e-3  # they end when the field changes by less than this, in the unit of fields
 TRUST = 0.3  # largest change of a component of the field in one programme, in that unit
 LEAST_TRUST = 2e-3
+FRESH = 0.03  # trust at a new feed, at least, of a wire on the wall: its nodes have moved on
 HALVINGS = 6
+LEAST_PART = 0.5**HALVINGS
+BEYOND = 3  # programmes from beyond where nothing on the way was better, at most
 ROUND_OFF = 1e-4  # a rise of the merit by less does not matter
 MISSED = 0.1  # part of the way to the wall, or of the margin, by which a constraint may be missed
 SLIP = 0.2  # change of the tip's offset from one feed to the next that is a slip, in that radius
@@ -34,6 +37,7 @@ TRIES = 12  # of a feed at which the wire is lost, each with a larger margin bef
 STIFFER = 1.15  # eigenvalue for a retry, over the one with which the wire was lost
 FIRM = 500.0  # see Pilot.firm
 HALVES = 2  # how often the way to a feed is halved, where the wall holds a wire that is lost
+WEDGED = 250.0  # eigenvalue, in stability margins, of a wire that the wall holds fast
 RELAXING = 0.95  # of that larger margin from one planned feed to the next
 
 
@@ -169,27 +173,64 @@ class Pilot:
 
     def _improve(self, view: View, before: Array, moved: float) -> View:
         """Change the field until no programme makes it better."""
-        unit, stiffness = self.programme.unit, INERTIA * self._length / moved
-        demands = self.programme.demands
-        largest = demands.max_field_rate * moved * demands.weakening
+        stiffness = INERTIA * self._length / moved
+        wedged = view.eigenvalue > WEDGED * self.programme.demands.stability_margin
+        touchy = not wedged and self.model.near_wall
+        if touchy:
+            self._trust = max(self._trust, FRESH)
         for _ in range(PROGRAMMES):
-            bounds = self._trust * unit * np.array([[-1.0] * 3, [1.0] * 3])
-            if np.isfinite(largest):
-                bounds[0] = np.maximum(bounds[0], before - largest - view.flux)
-                highest = np.minimum(bounds[1], before + largest - view.flux)
-                bounds[1] = np.maximum(bounds[0], highest)
-            change = self.programme.change(view, before, stiffness, self._margin, bounds)
-            if change is None:
-                raise NavigationError(
-                    f"At {self.model.feed * 1e3:.4g} mm of feed the quadratic programme for the "
-                    "field has no solution."
-                )
+            change = self._change(view, before, stiffness, moved)
             view, part = self._try(change, view, before, stiffness)
+            if part == 0.0 and touchy:
+                past = self._past(change, view, before, moved)
+                if past is not None:
+                    view = past
+                    continue
             wider = 2.0 if part == 1.0 else 1.5 * part
             self._trust = min(TRUST, max(LEAST_TRUST, wider * self._trust))
-            if part > 0.0 and norm(change) < SETTLED * unit:
+            enough = 1.0 if touchy else LEAST_PART
+            if part >= enough and norm(change) < SETTLED * self.programme.unit:
                 break
         return view
+
+    def _past(self, change: Array, view: View, before: Array, moved: float) -> View | None:
+        """Go to the changed field though it is worse, and on from there; None if all is worse.
+
+        Where the wire comes to the wall, what the programmes see of stronger fields has a jump, and
+        nothing on the way may be better though what is beyond is.
+        """
+        model, programme = self.model, self.programme
+        stiffness, start = INERTIA * self._length / moved, self.model.remember()
+        least = programme.merit(view, before, stiffness, self._margin)
+        there = model.look() if model.settle(start.flux + change) else None
+        for _ in range(BEYOND):
+            if there is None:
+                break
+            change = self._change(there, before, stiffness, moved)
+            there, part = self._try(change, there, before, stiffness)
+            if programme.merit(there, before, stiffness, self._margin) < least - ROUND_OFF:
+                return there
+            if part == 0.0:
+                break
+        model.return_to(start)
+        return None
+
+    def _change(self, view: View, before: Array, stiffness: float, moved: float) -> Array:
+        """The change of the field of the next programme."""
+        demands, unit = self.programme.demands, self.programme.unit
+        largest = demands.max_field_rate * moved * demands.weakening
+        bounds = self._trust * unit * np.array([[-1.0] * 3, [1.0] * 3])
+        if np.isfinite(largest):
+            bounds[0] = np.maximum(bounds[0], before - largest - view.flux)
+            highest = np.minimum(bounds[1], before + largest - view.flux)
+            bounds[1] = np.maximum(bounds[0], highest)
+        change = self.programme.change(view, before, stiffness, self._margin, bounds)
+        if change is None:
+            raise NavigationError(
+                f"At {self.model.feed * 1e3:.4g} mm of feed the quadratic programme for the "
+                "field has no solution."
+            )
+        return change
 
     def _try(
         self, change: Array, view: View, before: Array, stiffness: float
@@ -217,7 +258,10 @@ class Pilot:
         flux, room = norm(view.flux) / weak, programme.room(view)
         planned = norm(view.offset + (1.0 / weak - 1.0) * (view.offset_by_flux @ view.flux))
         missed = MISSED * (view.radius - programme.keep_off)
-        if planned > room + missed or view.distance > programme.wider_room(view) + missed:
+        touches = view.radius - programme.keep_off - self.model.system.contact.activation_gap
+        if planned > min(room + missed, touches) or view.distance > min(
+            programme.wider_room(view) + missed, touches
+        ):
             raise NavigationError(
                 f"{where} no stable field was found that keeps the tip within {room * 1e3:.3g} mm "
                 f"of the centreline; with {flux * 1e3:.3g} mT it is {planned * 1e3:.3g} mm away."

@@ -185,6 +185,8 @@ class StableNavigator:
         except NavigationError:
             return failure
         needed = norm(knot.flux) / self.demands.weakening
+        if needed <= limit:
+            return failure
         return NavigationError(
             f"At {feed * 1e3:.4g} mm of feed the tip needs {needed * 1e3:.3g} mT; the limit is "
             f"{limit * 1e3:.3g} mT."
@@ -196,7 +198,8 @@ class StableNavigator:
         if self._back or self._swings.is_held(last.view):
             return False
         near = [k for k in self._knots if k.feed >= last.feed - SPAN * self._length - CLOSE]
-        return norm(last.flux) > GROWTH * max(norm(near[0].flux), self._searched)
+        large = norm(last.flux) > self._pilot.programme.unit
+        return large and norm(last.flux) > GROWTH * max(norm(near[0].flux), self._searched)
 
     def _swing(self) -> bool:
         """Take the plan back to where the wire can swing onto the wall; whether it can."""
