@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from magwire.lumen import Branch, Lumen
+from magwire.lumen import Branch, Lumen, grid
 
 from .tubes import LUMENS, RADIUS, around, brute_force
 
@@ -139,3 +139,41 @@ def test_two_branches_make_their_union_with_a_rounded_carina() -> None:
     assert np.all(rounded >= largest[near] - 1e-12)
     assert np.all(rounded <= largest[near] + width / 6.0 + 1e-12)
     assert np.any(rounded > largest[near] + 0.1 * width)
+
+
+def wound(seed: int) -> Lumen:
+    """A tube of straights and sharp bends in turning planes, whose radius rises and falls."""
+    rng, step, bend = np.random.default_rng(seed), 2e-4, 1e-3 / 0.55
+    points, tangent = [np.zeros(3)], np.array([1.0, 0.0, 0.0])
+    for _ in range(6):
+        for _ in range(int(rng.uniform(3e-3, 8e-3) / step)):
+            points.append(points[-1] + step * tangent)
+        axis = np.cross(tangent, rng.normal(size=3))
+        turn = Rotation.from_rotvec(step / bend * axis / np.linalg.norm(axis))
+        for _ in range(int(rng.uniform(0.8, 2.2) * bend / step)):
+            tangent = turn.apply(tangent)
+            points.append(points[-1] + step * tangent)
+    arc = step * np.arange(len(points))
+    return Lumen.through(np.array(points), 1e-3 * (1 - 0.3 * np.sin(2 * np.pi * arc / 5e-3) ** 2))
+
+
+@pytest.mark.parametrize("seed", [1, 2, 5])
+def test_gap_does_not_jump_between_coarse_voxels(
+    seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A point's deepest ball may be another than the one that is deepest at its voxel's centre."""
+    monkeypatch.setattr(grid, "VOXELS", 10_000)
+    lumen = wound(seed)
+    arrays, rng, count = lumen.arrays(), np.random.default_rng(seed), 20_000
+    centre = lumen.branches[0].curve.at(rng.uniform(0.0, lumen.length, count))
+    away = rng.normal(size=(count, 3))
+    away *= (centre[:, 3] * rng.uniform(0.0, 0.95, count) / np.linalg.norm(away, axis=1))[:, None]
+    below, row, axis = centre[:, :3] + away, np.arange(count), rng.integers(0, 3, count)
+    corner = np.array([arrays.x0, arrays.y0, arrays.z0])[axis]
+    face = corner + np.round((below[row, axis] - corner) / arrays.cell) * arrays.cell
+    above = below.copy()
+    below[row, axis], above[row, axis] = face - 1e-10, face + 1e-10
+    gaps = lumen.gap(below), lumen.gap(above)
+    inside = np.isfinite(gaps[0]) & np.isfinite(gaps[1])
+    assert inside.sum() > 0.95 * count
+    assert np.abs(gaps[0][inside] - gaps[1][inside]).max() < 1e-9

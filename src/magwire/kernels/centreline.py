@@ -20,8 +20,10 @@ COLUMNS = 24
 
 ITERATIONS = 60  # Newton steps at most: a safeguard, three to five are taken
 TOLERANCE = 1e-5  # last step over the radius: the one after it would be below round-off
+FALL = 1e-9  # round-off of the gap, over the radius
 SHORTEST = 1e-9  # conditioning guard: smallest distance to the centreline, over the radius
-FLAT = 0.3  # smallest |F'| at which a seed is settled at the centre of its voxel
+LOOKS = 4  # at the way of a seed to its maximum
+FLAT = 0.1  # smallest |F'| in its voxel at which a seed is settled at the voxel's centre
 
 
 class LumenArrays(NamedTuple):
@@ -121,7 +123,7 @@ def climb(coefficients, branches, branch, seed, x, y, z):
 
     Chebyshev's method (Newton's with the second derivative, of third order) on
     F(S) = (x - c).c' + R' |x - c|, which has the sign of the ascent, kept inside the bracket of
-    the signs seen so far.
+    the signs seen so far. A step that leads down has leapt over a valley, and is halved.
 
     Returns
     -------
@@ -141,7 +143,7 @@ def climb(coefficients, branches, branch, seed, x, y, z):
     per_spacing = 1.0 / spacing
     s = min(max(seed, 0.0), length)
     low, high = -inf, inf
-    g = -inf
+    g, highest, there = -inf, -inf, s
     p, c1, c2 = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
     for count in range(1, ITERATIONS + 1):
         piece = min(int(s * per_spacing), pieces - 1)
@@ -149,10 +151,18 @@ def climb(coefficients, branches, branch, seed, x, y, z):
         p = (x - c[0], y - c[1], z - c[2])
         radius, radius1, radius2, radius3 = c[3], c1[3], c2[3], c3[3]
         exact = norm(p)
+        g = radius - exact
+        if g < highest - FALL * radius:
+            if s < there:
+                low = s
+            else:
+                high = s
+            s = 0.5 * (s + there)
+            continue
+        highest, there = g, s
         distance = max(exact, SHORTEST * radius)
         along, speed2, bend = dot(p, c1), dot(c1, c1), dot(p, c2)
         ascent = along + radius1 * distance
-        g = radius - exact
         if ascent <= 0.0 and s <= 0.0:
             return g, 0.0, -1, count, p, c1, c2
         if ascent >= 0.0 and s >= length:
@@ -188,7 +198,27 @@ def climb(coefficients, branches, branch, seed, x, y, z):
 
 
 @kernel
-def settle(coefficients, branches, seed_branch, points, seeds):
+def flattest(coefficients, branches, branch, begin, end, x, y, z, slack):
+    """Largest F' (see ``climb``) from one arc parameter to another, anywhere around a point.
+
+    Looked at in a few places, for the point and all that are at most ``slack`` away.
+    """
+    spacing = branches[branch, SPACING]
+    first, pieces = int(branches[branch, FIRST]), int(branches[branch, PIECES])
+    largest = -inf
+    for k in range(LOOKS + 1):
+        s = begin + (end - begin) * k / LOOKS
+        piece = min(max(int(s / spacing), 0), pieces - 1)
+        c, c1, c2, _ = spline(coefficients, first + piece, s - piece * spacing)
+        p = (x - c[0], y - c[1], z - c[2])
+        distance = max(norm(p), SHORTEST * c[3])
+        slope = dot(p, c2) - dot(c1, c1) + c2[3] * distance - c1[3] * dot(p, c1) / distance
+        largest = max(largest, slope + slack * (norm(c2) + abs(c2[3])))
+    return largest
+
+
+@kernel
+def settle(coefficients, branches, seed_branch, points, slack, seeds):
     """Move each seed to its maximum at the voxel's centre and find how that moves around it.
 
     dS/dx = -(c' + R' n)/F'. Seeds that run into an end, and those on a ridge so flat that the
@@ -198,19 +228,23 @@ def settle(coefficients, branches, seed_branch, points, seeds):
     ----------
     seed_branch, points
         Branch and voxel's centre of each seed, shapes [n] and [n, 3].
+    slack
+        Half the diagonal of a voxel.
     seeds
         Changed in place, shape [n, 4].
     """
     for i in range(len(seeds)):
-        branch = seed_branch[i]
+        branch, seed = seed_branch[i], seeds[i, 0]
         x, y, z = points[i, 0], points[i, 1], points[i, 2]
-        g, s, side, _, p, c1, c2 = climb(coefficients, branches, branch, seeds[i, 0], x, y, z)
+        g, s, side, _, p, c1, c2 = climb(coefficients, branches, branch, seed, x, y, z)
         exact = norm(p)
         radius = g + exact
-        distance = max(exact, SHORTEST * radius)
-        n = scale(1.0 / distance, p)
-        slope = dot(p, c2) - dot(c1, c1) + c2[3] * distance - c1[3] * dot(n, c1)
-        if side == 0 and slope < -FLAT and abs(s - seeds[i, 0]) < radius:
+        if side != 0 or abs(s - seed) >= radius:
+            continue
+        if flattest(coefficients, branches, branch, seed, s, x, y, z, slack) < -FLAT:
+            distance = max(exact, SHORTEST * radius)
+            n = scale(1.0 / distance, p)
+            slope = dot(p, c2) - dot(c1, c1) + c2[3] * distance - c1[3] * dot(n, c1)
             u = combine(1.0, c1, c1[3], n)
             seeds[i, 0] = s
             seeds[i, 1] = -u[0] / slope

@@ -10,6 +10,7 @@ from magwire.kernels._jit import kernel
 X, Y, Z, RADIUS, ARC, BRANCH = 0, 1, 2, 3, 4, 5
 DENSITY = 4.0  # samples per radius of arc length
 ROUGHNESS = 0.5 / DENSITY  # how far below the true maximum a sampled one may be, over the radius
+SHOULDER = 0.5  # the same where another point of the voxel may have a second maximum
 SPREAD = 3.0  # farthest distance between seeds on one flat ridge, over the radius
 
 
@@ -62,7 +63,9 @@ def ridges(samples, corner, cell, shape, slack, blend, best, near, state, out):
     """Samples that may lead to the largest gap somewhere in a voxel.
 
     They are the local maxima along the branch of R - |x - c| at the voxel's centre that come
-    within 2 ``slack`` + ``blend`` of the best one, and on ridges too flat to tell further ones.
+    within 2 ``slack`` + ``blend`` of the best one, and further ones where the slope at the centre
+    is so small that elsewhere in the voxel it may vanish: a point that moves by ``slack`` turns
+    the direction to the ball's centre by ``slack`` over its distance, and the slope by no more.
     Around open ends all within a radius of a wall count: the space past an end is free only
     where no other part of the lumen is near.
 
@@ -105,7 +108,7 @@ def ridges(samples, corner, cell, shape, slack, blend, best, near, state, out):
                         least = min(least, -radius - slack - rough)
                     if value < least:
                         continue
-                    count = visit(samples, j, value, index, state, out, count)
+                    count = visit(samples, j, value, slack, index, state, out, count)
     for index in range(len(state)):
         if state[index, 0] >= 0.0 and state[index, 2] > 0.0:
             count = emit(index, int(state[index, 0]), out, count)
@@ -113,8 +116,8 @@ def ridges(samples, corner, cell, shape, slack, blend, best, near, state, out):
 
 
 @kernel
-def visit(samples, j, value, index, state, out, count):
-    """Follow the ridge of a voxel from its last sample to sample ``j``."""
+def visit(samples, j, value, slack, index, state, out, count):
+    """Follow the ridge of a voxel from its last sample to sample ``j``; see ``ridges``."""
     last = int(state[index, 0])
     if last != j - 1 or samples[last, BRANCH] != samples[j, BRANCH]:
         if last >= 0 and state[index, 2] > 0.0:
@@ -127,7 +130,11 @@ def visit(samples, j, value, index, state, out, count):
         state[index, 3] = samples[last, ARC]
     elif value > state[index, 1]:
         state[index, 2] = 1.0
-    if samples[j, ARC] - state[index, 3] > SPREAD * samples[j, RADIUS]:
+    flat = False
+    if last == j - 1:
+        rise = abs(value - state[index, 1]) / (samples[j, ARC] - samples[last, ARC])
+        flat = rise * (samples[j, RADIUS] - value - slack) < slack
+    if samples[j, ARC] - state[index, 3] > (SHOULDER if flat else SPREAD) * samples[j, RADIUS]:
         count = emit(index, j, out, count)
         state[index, 3] = samples[j, ARC]
     state[index, 0] = j

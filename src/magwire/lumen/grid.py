@@ -32,6 +32,7 @@ Array = NDArray[np.float64]
 
 VOXELS = 2_000_000  # at most; larger lumens get larger voxels
 FINENESS = 0.5  # edge length of a voxel over the smallest radius
+SAME = 1e-4  # distance of settled seeds that are one, over the edge of a voxel
 BLENDED = 2.0  # how far below the deepest branch one is still felt, in blends: three may blend
 
 
@@ -191,16 +192,20 @@ def _pack(
     seeds: Array = NO_SEEDS,
 ) -> LumenArrays:
     """The arrays as the kernels take them."""
-    voxel, start = np.unique(seeds[:, 0].astype(np.int64), return_index=True)
-    branch = seeds[:, 1].astype(np.int32)
+    voxel, branch = seeds[:, 0].astype(np.int64), seeds[:, 1].astype(np.int32)
     settled = np.zeros((len(seeds), 4))
     settled[:, 0] = seeds[:, 2]
     if len(seeds) > 0:
-        place = np.unravel_index(seeds[:, 0].astype(np.int64), tuple(voxels.shape))
+        place = np.unravel_index(voxel, tuple(voxels.shape))
         middles = voxels.corner + (np.stack(place, axis=1) + 0.5) * voxels.cell
-        settle(coefficients, table, branch, middles, settled)
-        last = np.append(start, len(seeds))[1:] - 1
-        branch[last] = -1 - branch[last]
+        settle(coefficients, table, branch, middles, voxels.slack, settled)
+        same = (voxel[1:] == voxel[:-1]) & (branch[1:] == branch[:-1])
+        same &= np.abs(np.diff(settled[:, 0])) < SAME * voxels.cell
+        kept = np.concatenate([[True], ~same])
+        voxel, branch, settled = voxel[kept], branch[kept], settled[kept]
+    voxel, start = np.unique(voxel, return_index=True)
+    last = np.append(start, len(settled))[1:] - 1
+    branch[last] = -1 - branch[last]
     x0, y0, z0 = (float(corner) for corner in voxels.corner)
     nx, ny, nz = (int(count) for count in voxels.shape)
     return LumenArrays(
