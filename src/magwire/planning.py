@@ -26,7 +26,7 @@ FINEST = 5e-3  # that feed at most, over the wire's length
 SPEED = 0.01  # wire lengths in a second; there is no inertia
 PART = 0.25  # activation gap at most, over the clearance at the narrowest place
 GAP = 1e-4  # activation gap at most [m]
-HARD = 0.01  # stiffness of the wall's barrier, over Young's modulus of the wire, at least
+HARD = 1e-3  # stiffness of the wall's barrier, over Young's modulus of the wire, at least
 ATTEMPTS = 3  # in one place
 SLACK = 1.1  # feed at most, over the length of the way: a wire may lie on the outside of bends
 
@@ -153,7 +153,7 @@ def firm_wall(wire: Wire, bend: float, gap: float) -> Barrier:
     Middles between the nodes cut the inside of a bend: a wall that lets the nodes come much closer
     than its activation gap would be cut by them. To bend a wire of stiffness EI to a radius rho all
     along takes forces of EI/rho^3 per length; a wire that cuts bends presses more at few places,
-    so the wall is a hundredth as stiff as the wire's material at least.
+    so the wall is a thousandth as stiff as the wire's material at least.
 
     Parameters
     ----------

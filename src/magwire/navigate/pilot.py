@@ -30,7 +30,7 @@ HALVINGS = 6
 LEAST_PART = 0.5**HALVINGS
 BEYOND = 3  # programmes from beyond where nothing on the way was better, at most
 ROUND_OFF = 1e-4  # a rise of the merit by less does not matter
-MISSED = 0.1  # part of the way to the wall, or of the margin, by which a constraint may be missed
+MISSED = 0.1  # part of the lumen's radius, or of the margin, by which a constraint may be missed
 SLIP = 0.2  # change of the tip's offset from one feed to the next that is a slip, in that radius
 INERTIA = 0.015  # feed over which the field may follow what is asked for, in the model's reach
 TRIES = 12  # of a feed at which the wire is lost, each with a larger margin before it
@@ -257,8 +257,8 @@ class Pilot:
         weak = demands.weakening
         flux, room = norm(view.flux) / weak, programme.room(view)
         planned = norm(view.offset + (1.0 / weak - 1.0) * (view.offset_by_flux @ view.flux))
-        missed = MISSED * (view.radius - programme.keep_off)
-        touches = view.radius - programme.keep_off - self.model.system.contact.activation_gap
+        missed = MISSED * view.radius
+        touches = programme.touches(view)
         if planned > min(room + missed, touches) or view.distance > min(
             programme.wider_room(view) + missed, touches
         ):

@@ -45,11 +45,14 @@ class Programme:
         Flux density of order one [T].
     keep_off
         What the wall keeps from the wire's axis [m].
+    activation_gap
+        Within it the wall presses on the tip [m].
     """
 
     demands: Demands
     unit: float
     keep_off: float
+    activation_gap: float
 
     def room(self, view: View) -> float:
         """How far from the centreline the tip may be [m]."""
@@ -57,8 +60,12 @@ class Programme:
 
     def wider_room(self, view: View) -> float:
         """How far from the centreline the tip may be in a field that is off [m]."""
-        most = MOST_ROOM * (view.radius - self.keep_off)
+        most = min(MOST_ROOM * (view.radius - self.keep_off), self.touches(view))
         return max(self.room(view), min(OFF_ROOM * self.room(view), most))
+
+    def touches(self, view: View) -> float:
+        """How far from the centreline the tip is when the wall begins to press on it [m]."""
+        return view.radius - self.keep_off - self.activation_gap
 
     def merit(self, view: View, before: Array, stiffness: float, margin: float) -> float:
         """What the programme minimises, at the field as it is."""

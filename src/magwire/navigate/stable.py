@@ -121,6 +121,7 @@ class StableNavigator:
             demands,
             REFERENCE * system.scales.flux_density * longer**2,
             system.wire.radius if system.contact.wall == "surface" else 0.0,
+            system.contact.activation_gap,
         )
         unlimited = replace(programme, demands=replace(demands, max_field=float("inf")))
         self._pilot = Pilot(self.model, programme)
