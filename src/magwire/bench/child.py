@@ -5,10 +5,8 @@ from __future__ import annotations
 import json
 import sys
 import time
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from magwire.engine.record import Record
+from contextlib import redirect_stdout
+from io import StringIO
 
 stamps = {"python": time.time()}
 
@@ -33,24 +31,25 @@ def names() -> None:
 
 
 def step(out: str) -> None:
-    """What ``magwire run half-circle`` does up to the end of its first time step."""
-    from pathlib import Path
+    """``magwire run half-circle`` up to the end of its first time step, and on to a short end."""
+    from magwire.cli import main
 
-    from magwire.progress import running
-    from magwire.scenario import load
+    mark("command line")
+    from magwire.engine.dynamics import March
 
-    described = load("half-circle", ("feed.distance=0.1 mm", "output.record_every=0.01 mm"))
-    mark("scenario")
-    job = described.build()
-    mark("models")
-    with running(job.feed.duration) as show:
+    advance = March.advance
 
-        def watch(record: Record) -> None:
-            if record.totals.steps > 0 and "step" not in stamps:
-                mark("step")
-            show(record)
+    def watched(march: March, steps: int) -> bool:
+        done = advance(march, steps)
+        stamps.setdefault("step", time.time())
+        return done
 
-        job.run(Path(out) / "result.nc", watch=watch)
+    March.advance = watched  # type: ignore[method-assign, assignment]
+    short = ("--set", "feed.distance=0.1 mm", "--set", "output.record_every=0.01 mm")
+    with redirect_stdout(StringIO()):
+        status = main(("run", "half-circle", *short, "--out", f"{out}/run"))
+    if status != 0:
+        sys.exit(status)
 
 
 def memory(name: str, out: str) -> None:

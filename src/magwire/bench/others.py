@@ -30,9 +30,8 @@ STARTS = (
     ("  and every public name", "names", "python", "names"),
     ("warm start: process to first step", "warm", None, "step"),
     ("  Python itself", "warm", None, "python"),
-    ("  imports, scenario read and checked", "warm", "python", "scenario"),
-    ("  models built", "warm", "scenario", "models"),
-    ("  result file opened, first step", "warm", "models", "step"),
+    ("  import of the command line", "warm", "python", "command line"),
+    ("  scenario, models, result file, first step", "warm", "command line", "step"),
     ("cold start: process to first step", "cold", None, "step"),
 )
 
