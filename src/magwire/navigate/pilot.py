@@ -258,13 +258,17 @@ class Pilot:
         flux, room = norm(view.flux) / weak, programme.room(view)
         planned = norm(view.offset + (1.0 / weak - 1.0) * (view.offset_by_flux @ view.flux))
         missed = MISSED * view.radius
-        touches = programme.touches(view)
-        if planned > min(room + missed, touches) or view.distance > min(
-            programme.wider_room(view) + missed, touches
-        ):
+        touches, wider = programme.touches(view), programme.wider_room(view)
+        within = f"{where} no stable field was found that keeps the tip within"
+        if planned > min(room + missed, touches):
             raise NavigationError(
-                f"{where} no stable field was found that keeps the tip within {room * 1e3:.3g} mm "
-                f"of the centreline; with {flux * 1e3:.3g} mT it is {planned * 1e3:.3g} mm away."
+                f"{within} {room * 1e3:.3g} mm of the centreline; with {flux * 1e3:.3g} mT it is "
+                f"{planned * 1e3:.3g} mm away."
+            )
+        if view.distance > min(wider + missed, touches):
+            raise NavigationError(
+                f"{within} {wider * 1e3:.3g} mm of the centreline should it be weaker; with "
+                f"{norm(view.flux) * 1e3:.3g} mT it is {view.distance * 1e3:.3g} mm away."
             )
         if view.eigenvalue < (1.0 - MISSED) * demands.stability_margin:
             raise NavigationError(
