@@ -262,7 +262,8 @@ class Pilot:
         within = f"{where} no stable field was found that keeps the tip within"
         if planned > min(room + missed, touches):
             raise NavigationError(
-                f"{within} {room * 1e3:.3g} mm of the centreline; with {flux * 1e3:.3g} mT it is "
+                f"{within} {min(room, touches) * 1e3:.3g} mm of the centreline; with "
+                f"{flux * 1e3:.3g} mT it is "
                 f"{planned * 1e3:.3g} mm away."
             )
         if view.distance > min(wider + missed, touches):
