@@ -83,7 +83,7 @@ def cross(tree: Lumen, centre: Array, radius: float, seed: int) -> int:
     return int(pairs.sum())
 
 
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(name=st.sampled_from(sorted(TREES)), which=st.integers(0, 2), seed=st.integers(0, 10_000))
 def test_gap_and_gradient_have_no_jump_across_a_junction(name: str, which: int, seed: int) -> None:
     tree = TREES[name]
