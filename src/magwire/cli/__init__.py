@@ -11,10 +11,10 @@ from cyclopts import App, CycloptsError
 import magwire
 from magwire.cli.benchmarks import bench
 from magwire.cli.evidence import reproduce, verify
-from magwire.cli.library import list_scenarios, schema
 from magwire.cli.outlets import plan_outlets
 from magwire.cli.pictures import animate, plot
 from magwire.cli.running import replay, run
+from magwire.cli.scenarios import list_scenarios, schema
 from magwire.cli.sweeps import sweep
 from magwire.cli.vessels import lumen
 from magwire.cli.words import INTERRUPTED, complain
