@@ -84,9 +84,8 @@ class Simulation:
             release=release,
         )
         self.field: FieldSource = UniformField() if field is None else field
-        keeps_off = wire.radius if self.system.contact.wall == "surface" else 0.0
         narrowest = lumen.path().narrowest  # a side branch may be too narrow for the wire
-        if narrowest <= keeps_off:
+        if narrowest <= self.system.keep_off:
             raise InputError(
                 f"Input wire of Simulation must be thinner than the lumen, whose smallest radius "
                 f"is {narrowest:.6g} m; received a wire radius of {wire.radius:.6g} m."

@@ -121,6 +121,11 @@ class System:
         """The way from the entrance to the lumen's target, as a single tube."""
         return self.lumen.path()
 
+    @property
+    def keep_off(self) -> float:
+        """What the wall keeps from the wire's axis, where the wire is widest [m] (P-12)."""
+        return self.wire.radius if self.contact.wall == "surface" else 0.0
+
     @cached_property
     def walls(self) -> LumenArrays:
         """The lumen for the gap kernels, in units of the wire's length."""

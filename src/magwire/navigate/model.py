@@ -138,10 +138,8 @@ class Model:
         points = self._state.q[self._held + 1 :, :3] * system.wire.length
         if len(points) == 0:
             return False
-        keep_off = system.wire.radius if system.contact.wall == "surface" else 0.0
-        return (
-            float(system.lumen.gap(points).min()) < keep_off + NEAR * system.contact.activation_gap
-        )
+        reach = system.keep_off + NEAR * system.contact.activation_gap
+        return float(system.lumen.gap(points).min()) < reach
 
     def feed_to(self, feed: float) -> bool:
         """Feed the wire on (or back) in the field as it is; whether an equilibrium was found."""

@@ -120,7 +120,7 @@ class StableNavigator:
         programme = Programme(
             demands,
             REFERENCE * system.scales.flux_density * longer**2,
-            system.wire.radius if system.contact.wall == "surface" else 0.0,
+            system.keep_off,
             system.contact.activation_gap,
         )
         unlimited = replace(programme, demands=replace(demands, max_field=float("inf")))
