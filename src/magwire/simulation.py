@@ -32,6 +32,10 @@ UNSTABLE = (
     "The equilibrium at {:.4g} mm of feed is unstable: a wire leaves it, and quasi-static motion "
     "does not tell where to."
 )
+OUTSIDE = (
+    "At {:.4g} mm of feed a point between two nodes is {:.3g} um outside the wall: the wire's edges "
+    "are too long for the bend there; use more nodes."
+)
 
 
 class Simulation:
@@ -171,6 +175,10 @@ class Simulation:
                     if watch is not None:
                         watch(record)
                     strike()
+                    if record.clearance_along < 0.0:
+                        outside = OUTSIDE.format(1e3 * record.feed, -1e6 * record.clearance_along)
+                        writer.close("not converged", outside)
+                        return writer.result()
                     if not (inertia or record.stable):
                         writer.close("unstable", UNSTABLE.format(1e3 * record.feed))
                         return writer.result()

@@ -36,7 +36,7 @@ def simulation(sections: tuple[Section, ...], where: str, wall: str) -> Simulati
     return Simulation(
         Wire(sections, 60),
         tube,
-        contact=Barrier(wall=wall),  # type: ignore[arg-type]
+        contact=Barrier(1e3, 1e-4, wall=wall),  # type: ignore[arg-type]
         gravity=(1.0, -3.0, -9.0),
         fluid_density=900.0,
     )

@@ -243,12 +243,12 @@ class March:
         place_held(system.rod, system.guide, state, 0, mouth.held, feed, twist)
         nodes = len(state.q)
         forces, clearance = np.zeros((nodes, 3)), np.zeros(nodes)
-        between, stable = observe(self._model(), state, mouth, self._work, forces, clearance)
+        middle, along, stable = observe(
+            self._model(), state, mouth, self._work, forces, clearance
+        )
         clearance[: mouth.held + 1] = np.nan
-        free = clearance[mouth.held + 1 :]
         if mouth.held < nodes - 1:
-            least = min(float(free.min()), between) * scales.length
-            self._clearance = min(self._clearance, least)
+            self._clearance = min(self._clearance, along * scales.length)
         counts = self._tally.counts
         new_steps = counts[0] - self._seen[0]
         iterations = (counts[1] - self._seen[1]) / new_steps if new_steps else 0.0
@@ -261,7 +261,8 @@ class March:
             flux_density=self.source.at(tip)[0][0] + self._plan.steer,
             contact_force=forces[1:] * scales.force,
             clearance=clearance[1:] * scales.length,
-            clearance_midpoint=between * scales.length if np.isfinite(between) else float("nan"),
+            clearance_midpoint=middle * scales.length if np.isfinite(middle) else float("nan"),
+            clearance_along=along * scales.length if np.isfinite(along) else float("nan"),
             tip_force=float(np.linalg.norm(forces[-1])) * scales.force,
             tip_offset=float(system.path.offset(tip)[0]),
             newton_iterations=float(iterations),

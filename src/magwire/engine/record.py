@@ -70,7 +70,7 @@ class Totals:
     first_contact_feed
         Feed at which any node first felt the wall [m]; NaN if none did.
     smallest_clearance
-        Over all recorded states, nodes and midpoints [m].
+        Over all recorded states, anywhere along the wire [m].
     steps, newton_iterations, factorisations, retries
         Counts so far.
     wall_time
@@ -107,6 +107,8 @@ class Record:
         NaN for nodes on the guide.
     clearance_midpoint
         The smallest of the midpoints between nodes [m]; NaN if all are on the guide.
+    clearance_along
+        The smallest anywhere along the wire, nodes and edges [m]; NaN if all is on the guide.
     tip_force, tip_offset
         Size of the wall force on the tip node [N]; distance of the tip from the centreline [m].
     newton_iterations
@@ -127,6 +129,7 @@ class Record:
     contact_force: Array
     clearance: Array
     clearance_midpoint: float
+    clearance_along: float
     tip_force: float
     tip_offset: float
     newton_iterations: float

@@ -137,7 +137,7 @@ def find_equilibrium(
     nodes = len(state.q)
     forces, clearance = np.zeros((nodes, 3)), np.full(nodes, np.nan)
     model = (system.rod, done.field, system.new_wall(), system.walls)
-    _, stable = observe(model, state, mouth, work, forces, clearance)
+    _, _, stable = observe(model, state, mouth, work, forces, clearance)
     point = Point(system, done.field, state, mouth)
     if held < system.wire.nodes and not source.affine:
         point = replace(point, unsampled=unsampled_stiffness(system, source, state))

@@ -21,8 +21,9 @@ def _cache_folder() -> Path:
     file would leave stale machine code. The folder's name therefore carries a hash of them all.
     """
     digest = hashlib.sha256(numba.__version__.encode())
-    for source in sorted(Path(__file__).parent.glob("*.py")):
-        digest.update(source.name.encode())
+    folder = Path(__file__).parent
+    for source in sorted(folder.rglob("*.py")):
+        digest.update(str(source.relative_to(folder)).encode())
         digest.update(source.read_bytes())
     base = os.environ.get("MAGWIRE_CACHE")
     root = Path(base) if base else _user_cache()

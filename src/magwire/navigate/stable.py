@@ -121,7 +121,7 @@ class StableNavigator:
             demands,
             REFERENCE * system.scales.flux_density * longer**2,
             system.keep_off,
-            system.contact.activation_gap,
+            system.firmness.activation_gap,
         )
         unlimited = replace(programme, demands=replace(demands, max_field=float("inf")))
         self._pilot = Pilot(self.model, programme)

@@ -72,6 +72,12 @@ VARIABLES: dict[str, Variable] = {
         "smallest distance to the wall midway between nodes",
         lambda r, _: r.clearance_midpoint,
     ),
+    "clearance_along": Variable(
+        ("time",),
+        "m",
+        "smallest distance to the wall anywhere along the wire",
+        lambda r, _: r.clearance_along,
+    ),
     "tip_force": Variable(
         ("time",), "N", "magnitude of the force of the wall on the tip", lambda r, _: r.tip_force
     ),

@@ -136,7 +136,7 @@ class Result:
 
     @property
     def smallest_clearance(self) -> float:
-        """Smallest distance to the wall at nodes and midway between them [m]; NaN without a wall.
+        """Smallest distance to the wall anywhere along the wire [m]; NaN without a wall.
 
         It is the distance that the scenario's wall convention counts (P-12).
         """
@@ -144,6 +144,7 @@ class Result:
             self._number("smallest_clearance"),
             *self.clearance.ravel(),
             *self.dataset["clearance_midpoint"].values,
+            *self.dataset.get("clearance_along", []),
         ]
         finite = np.array(found)[np.isfinite(found)]
         return float(finite.min()) if finite.size else float("nan")

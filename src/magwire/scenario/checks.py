@@ -102,10 +102,11 @@ def activation_gap(scenario: Scenario) -> Faults:
         return
     wire, lumen = scenario.wire.largest_radius, scenario.lumen.narrowest
     free = lumen - wire if scenario.contact.wall == "surface" else lumen
-    if wire < lumen and scenario.contact.activation_gap >= free:
+    gap = scenario.contact.activation_gap
+    if wire < lumen and gap != "auto" and gap >= free:
         yield (
             "Input contact.activation_gap must be smaller than the free gap of the lumen, "
-            f"{show(free, 'length')}; received {show(scenario.contact.activation_gap, 'length')}."
+            f"{show(free, 'length')}; received {show(gap, 'length')}."
         )
 
 

@@ -192,8 +192,8 @@ class GradientFieldTable(Table):
 class ContactTable(Table):
     """How the wall acts on the wire."""
 
-    stiffness: Pressure = preset("1 kPa")
-    activation_gap: Length = preset("0.1 mm")
+    stiffness: Pressure | Literal["auto"] = "auto"
+    activation_gap: Length | Literal["auto"] = "auto"
     wall: Literal["surface", "centreline"] = "surface"
 
     def build(self) -> Barrier:
