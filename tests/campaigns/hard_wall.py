@@ -1,4 +1,4 @@
-"""Computes tests/data/hard_wall: `python tests/campaigns/hard_wall.py [CASE ...]`; minutes a case."""
+"""Computes tests/data/hard_wall in minutes: `python tests/campaigns/hard_wall.py [CASE ...]`."""
 
 from __future__ import annotations
 

@@ -70,12 +70,15 @@ def test_planar_chain_of_angles(links: int) -> None:
 
 
 def test_work_of_the_push() -> None:
-    """dE/dX is the walls' force against the push less EI k^2/2 of the curvature at the mouth."""
+    """dE/dX is the walls' force against the push less EI k^2/2 of the curvature at the mouth.
+
+    That is taken a quarter of a link past it: the error is of first order.
+    """
     step, begin = 0.005, pushed.CASES["helix"].direction
     before, rod, after = list(hard_wall.push(pushed.CASES["helix"], step, 0.4))[-3:]
     bend = np.linalg.norm(rod.joints[0] / step - begin) / (0.5 * step)
     work = (_energy(after, step) - _energy(before, step)) / (2.0 * step)
-    assert work == pytest.approx(-rod.wall_force.sum(axis=0) @ begin - 0.5 * bend**2, rel=5e-3)
+    assert work == pytest.approx(-rod.wall_force.sum(axis=0) @ begin - 0.5 * bend**2, rel=1e-2)
 
 
 def _energy(rod: hard_wall.Rod, step: float) -> float:

@@ -6,10 +6,10 @@ unknowns, and
     E = sum |x_(i+1) - 2 x_i + x_(i-1)|^2 / (2 h^3)
 
 is its bending energy (EI/h (1 - cos) of every turn), twice as stiff at the clamp, where half a cell
-is free. |x_i - x_(i-1)| = h and h_i(x_i) >= 0 (`passages`) are constraints; the multipliers of
-the latter are the forces of the wall. Newton's method solves the conditions of
-Karush, Kuhn and Tucker with s z = mu for gaps s and multipliers z, and mu goes to 1e-9: what
-is left of it in a gap is mu/z. The rod is fed link by link, every state from the one before.
+is free. |x_i - x_(i-1)| = h and h_i(x_i) >= 0 (`passages`) are constraints; the multipliers of the
+latter are the forces of the wall. Newton's method solves the conditions of Karush, Kuhn and Tucker
+with s z = mu for gaps s and multipliers z, and mu goes to 1e-9: what is left of it in a gap is
+mu/z. The rod is fed link by link, every state from the one before.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ ITERATIONS = 150
 
 
 class _Point(NamedTuple):
-    """Joints x, multipliers y of the links, gaps s and their multipliers z, parameters w of the nearest balls."""
+    """Joints x, multipliers y of links, gaps s and multipliers z of theirs, parameters w of balls."""
 
     x: Array
     y: Array

@@ -95,7 +95,7 @@ def circle(bend: float) -> Curve:
 
 
 def cosine(amplitude: float, period: float) -> Curve:
-    """y = amplitude (cos(2 pi x / period) - 1); w is x."""
+    """Cosine in the xy plane: y = amplitude (cos(2 pi x / period) - 1); w is x."""
     k = 2.0 * np.pi / period
 
     def curve(w: Array) -> tuple[Array, Array, Array]:
