@@ -36,7 +36,7 @@ ITERATIONS = 150
 
 
 class _Point(NamedTuple):
-    """Joints x, multipliers y of links, gaps s and multipliers z of theirs, parameters w of balls."""
+    """Joints x, multipliers y of links, gaps s and their multipliers z, parameters w of balls."""
 
     x: Array
     y: Array
