@@ -13,6 +13,7 @@ from magwire.engine.sampling import sample, unsampled_stiffness
 from magwire.engine.sensitivity import Input, Output, derivative
 from magwire.engine.status import Status
 from magwire.engine.system import System
+from magwire.engine.tip import tip_direction
 from magwire.engine.uneven import Settled, settle
 from magwire.errors import ConvergenceError, finite, within
 from magwire.field import FieldSource
@@ -67,10 +68,9 @@ class Equilibrium:
 
     @property
     def tip_direction(self) -> Array:
-        """Unit tangent of the last edge, shape (3,)."""
-        edge = self.positions[-1] - self.positions[-2]
-        result: Array = edge / np.linalg.norm(edge)
-        return result
+        """Unit tangent at the tip, shape (3,)."""
+        point = self.point
+        return tip_direction(point.system, point.state, point.mouth.held)
 
     @property
     def tip_force(self) -> float:
@@ -118,7 +118,9 @@ def find_equilibrium(
     twist: float = 0.0,
 ) -> Equilibrium:
     """Static equilibrium at a fixed feed and field; see ``Simulation.equilibrium``."""
-    feed = within("Simulation", "feed", feed, "m", low=0.0, high=system.wire.length)
+    length = system.wire.length  # of sections that sum to it but for rounding
+    feed = within("Simulation", "feed", feed, "m", low=0.0, high=length * (1.0 + 1e-9))
+    feed = min(feed, length)
     twist = finite("Simulation", "twist", twist, "rad")
     part = feed / system.wire.length
     mouth = Mouth(*find_mouth(system.rod, system.guide, part))

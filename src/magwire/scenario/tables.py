@@ -14,6 +14,7 @@ from magwire.scenario.quantity import (
     Density,
     DensityOrZero,
     FluxDensity,
+    Force,
     Length,
     LengthOrZero,
     Magnetization,
@@ -270,10 +271,11 @@ class SolverTable(Table):
 
 
 class EnvironmentTable(Table):
-    """What surrounds the wire."""
+    """What surrounds the wire, and what pulls at it."""
 
     gravity: Acceleration = preset(["0 m/s^2", "0 m/s^2", "0 m/s^2"])
     fluid_density: DensityOrZero = preset("0 kg/m^3")
+    tip_force: Force = preset(["0 mN", "0 mN", "0 mN"])
 
 
 class OutputTable(Table):
