@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from magwire.scenario import load as load_scenario
     from magwire.scenario import names as scenario_names
     from magwire.simulation import Simulation as Simulation
+    from magwire.wire import Make as Make
     from magwire.wire import Section as Section
     from magwire.wire import Wire as Wire
 
@@ -51,6 +52,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "InputError": ("magwire.errors", "InputError"),
     "Lumen": ("magwire.lumen", "Lumen"),
     "MagwireError": ("magwire.errors", "MagwireError"),
+    "Make": ("magwire.wire", "Make"),
     "Outcome": ("magwire.many", "Outcome"),
     "Prescribed": ("magwire.navigate", "Prescribed"),
     "Prospect": ("magwire.planning", "Prospect"),
@@ -82,6 +84,7 @@ __all__ = [
     "InputError",
     "Lumen",
     "MagwireError",
+    "Make",
     "Outcome",
     "Prescribed",
     "Prospect",

@@ -95,7 +95,8 @@ def of_scenario(
     lumen, wire = system.lumen, system.wire
     if words["diameter"] is not None:
         radius = 0.5 * _read(words, "diameter", "length", "--wire")
-        wire = Wire(tuple(replace(part, radius=radius) for part in wire.sections), wire.nodes)
+        parts = (replace(part, radius=radius, end_radius=None) for part in wire.sections)
+        wire = Wire(tuple(parts), wire.nodes)
     steered = {
         name: value
         for name in Demands.__dataclass_fields__

@@ -90,7 +90,8 @@ class Equilibrium:
             origin; ``"feed"`` [m]; ``"twist"`` [rad]; or a parameter of each section of the wire:
             ``"youngs_modulus"`` and ``"shear_modulus"``, shape (sections,) [Pa],
             ``"magnetization"``, shape (sections, 3) [A/m], ``"radius"``, shape (sections,) [m], in
-            which a bore stays as it is.
+            which a bore stays as it is, and so does a stiffness that was given. Each parameter
+            counts with all others as they are, also where a Poisson ratio was given.
 
         Returns
         -------
@@ -100,7 +101,7 @@ class Equilibrium:
         Raises
         ------
         InputError
-            If output or input is none of these.
+            If output or input is none of these, or a section has no such parameter.
 
         Notes
         -----
