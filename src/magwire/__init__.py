@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from magwire.contact import Barrier as Barrier
     from magwire.engine.feed import Feed as Feed
+    from magwire.engine.hold import Hold as Hold
     from magwire.engine.statics import Equilibrium as Equilibrium
     from magwire.errors import ConvergenceError as ConvergenceError
     from magwire.errors import InputError as InputError
@@ -49,6 +50,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Equilibrium": ("magwire.engine.statics", "Equilibrium"),
     "Feed": ("magwire.engine.feed", "Feed"),
     "GradientField": ("magwire.field", "GradientField"),
+    "Hold": ("magwire.engine.hold", "Hold"),
     "InputError": ("magwire.errors", "InputError"),
     "Lumen": ("magwire.lumen", "Lumen"),
     "MagwireError": ("magwire.errors", "MagwireError"),
@@ -81,6 +83,7 @@ __all__ = [
     "Equilibrium",
     "Feed",
     "GradientField",
+    "Hold",
     "InputError",
     "Lumen",
     "MagwireError",

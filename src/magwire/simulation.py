@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from magwire.contact import Barrier
 from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
+from magwire.engine.hold import Hold
 from magwire.engine.interrupt import held_back_interrupt
 from magwire.engine.record import Motion, Record, RunInfo
 from magwire.engine.statics import Equilibrium, find_equilibrium
@@ -195,6 +196,7 @@ class Simulation:
         *,
         start: Equilibrium | None = None,
         twist: float = 0.0,
+        hold: Hold | None = None,
     ) -> Equilibrium:
         """Static equilibrium of the wire at a fixed feed and field (P-16).
 
@@ -211,6 +213,10 @@ class Simulation:
             more than one equilibrium: the start decides which is found.
         twist
             Angle by which the guide turns the wire about its axis [rad].
+        hold
+            Where the far end is held, and how; it is free if left out. It is carried there from
+            where it is in ``start``, at the same feed. Stability and sensitivities are those of the
+            held wire.
 
         Returns
         -------
@@ -232,7 +238,7 @@ class Simulation:
         else:
             flux = array("Simulation", "field", field, (3,), "T")
             source = UniformField((float(flux[0]), float(flux[1]), float(flux[2])))
-        return find_equilibrium(self.system, source, feed, start=start, twist=twist)
+        return find_equilibrium(self.system, source, feed, start=start, twist=twist, hold=hold)
 
     def tip_arc(self, position: ArrayLike) -> float:
         """How far the tip has come on the way to the lumen's target, an arc parameter [m].

@@ -119,7 +119,7 @@ def _coupling(band: Array, lead: Array, point: Point) -> Array:
 def _solve(point: Point, loads: Array) -> Array:
     """Displacements -K^-1 load for every load, shape [inputs, nodes + 1, 4]."""
     nodes, held = len(point.state.q), point.mouth.held
-    last = 4 * (nodes - held + 1) - 1
+    last = point.last
     moved = np.zeros_like(loads)
     if held == nodes - 1:
         return moved

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.engine.hold import Hold, carry
 from magwire.engine.point import Point
 from magwire.engine.sampling import sample, unsampled_stiffness
 from magwire.engine.sensitivity import Input, Output, derivative
@@ -15,7 +16,7 @@ from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.engine.tip import tip_direction
 from magwire.engine.uneven import Settled, settle
-from magwire.errors import ConvergenceError, finite, within
+from magwire.errors import ConvergenceError, InputError, finite, within
 from magwire.field import FieldSource
 from magwire.kernels.arrays import Motion, Mouth, State, Work
 from magwire.kernels.guide import find_mouth, place_held
@@ -25,6 +26,7 @@ from magwire.kernels.newton import copy_state, newton
 from magwire.kernels.observe import observe
 
 Array = NDArray[np.float64]
+FEWEST = 4  # nodes past the guide of a wire whose last edge is held
 
 
 @dataclass(frozen=True)
@@ -117,6 +119,7 @@ def find_equilibrium(
     *,
     start: Equilibrium | None = None,
     twist: float = 0.0,
+    hold: Hold | None = None,
 ) -> Equilibrium:
     """Static equilibrium at a fixed feed and field; see ``Simulation.equilibrium``."""
     length = system.wire.length  # of sections that sum to it but for rounding
@@ -133,7 +136,10 @@ def find_equilibrium(
     place_held(system.rod, system.guide, state, 0, held, part, twist)
     work = system.new_work()
     done = Settled(sample(system, source, state), "", 0, 0.0)
-    if held < system.wire.nodes:
+    if hold is not None:
+        _check_hold(source, start, feed, system.wire.nodes - held)
+        done = carry(system, done.field, state, mouth, hold)
+    elif held < system.wire.nodes:
         done = (_settle if source.affine else settle)(system, source, state, mouth, work)
     if done.reason:
         raise _failure(system, feed, done.reason, state)
@@ -141,9 +147,10 @@ def find_equilibrium(
     forces, clearance = np.zeros((nodes, 3)), np.full(nodes, np.nan)
     model = (system.rod, done.field, system.new_wall(), system.walls)
     _, stable = observe(model, state, mouth, work, forces, clearance)
-    point = Point(system, done.field, state, mouth)
+    point = Point(system, done.field, state, mouth, far_held=hold is not None)
     if held < system.wire.nodes and not source.affine:
         point = replace(point, unsampled=unsampled_stiffness(system, source, state))
+    if point.far_held or point.unsampled is not None:
         stable = point.stable
     return Equilibrium(
         feed=feed,
@@ -156,6 +163,25 @@ def find_equilibrium(
         iterations=done.iterations,
         point=point,
     )
+
+
+def _check_hold(source: FieldSource, start: Equilibrium | None, feed: float, free: int) -> None:
+    """What is held at its far end is not fed, in a field that is linear in space."""
+    if not source.affine:
+        raise InputError(
+            "Input field of Simulation must be uniform or linear for a wire with a held end; "
+            f"received {source!r}."
+        )
+    if start is not None and abs(start.feed - feed) > 1e-9 * feed:
+        raise InputError(
+            "Input start of Simulation must be at the same feed for a wire with a held end, "
+            f"{feed:.10g} m; received {start.feed:.10g} m."
+        )
+    if free < FEWEST:
+        raise InputError(
+            f"Input feed of Simulation must let go of {FEWEST} nodes for a wire with a held end; "
+            f"received {feed:.10g} m, which lets go of {free}."
+        )
 
 
 def _settle(system: System, source: FieldSource, state: State, mouth: Mouth, work: Work) -> Settled:
