@@ -238,7 +238,7 @@ def test_command_on_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -
     ("words", "said"),
     [
         (["x.vtp"], "Input --wire must be the wire's diameter, such as '0.6 mm'; received none."),
-        (["x.vtp", "--wire", "0.6"], "Input --wire needs a unit of length"),
+        (["x.vtp", "--wire", "0.6"], "Input --wire needs a unit of diameter"),
         (["x.vtp", "--wire=-1 mm"], "--wire of magwire plan must be positive"),
         (["x.vtp", "--wire", "1 mm"], "Vessel file 'x.vtp' cannot be read"),
         (["straight", "--units", "mm"], "Option --units is for a vessel's file; received 'mm'."),

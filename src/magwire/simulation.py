@@ -52,7 +52,7 @@ class Simulation:
         Acceleration, shape (3,) [m/s^2].
     fluid_density
         Of what fills the lumen [kg/m^3]; its buoyancy acts against gravity.
-    tip_force
+    tip_load
         Dead force on the tip, which keeps its direction in space, shape (3,) [N].
     release
         How the guide lets go of the wire (P-15): ``"sliding"``, or node by node as in the paper,
@@ -74,11 +74,11 @@ class Simulation:
         damping: float = 0.01,
         gravity: ArrayLike = (0.0, 0.0, 0.0),
         fluid_density: float = 0.0,
-        tip_force: ArrayLike = (0.0, 0.0, 0.0),
+        tip_load: ArrayLike = (0.0, 0.0, 0.0),
         release: Release = "sliding",
     ) -> None:
         pull = array("Simulation", "gravity", gravity, (3,), "m/s^2")
-        load = array("Simulation", "tip_force", tip_force, (3,), "N")
+        load = array("Simulation", "tip_load", tip_load, (3,), "N")
         self.system = System(
             wire=wire,
             lumen=lumen,
@@ -86,7 +86,7 @@ class Simulation:
             damping=damping,
             gravity=(float(pull[0]), float(pull[1]), float(pull[2])),
             fluid_density=fluid_density,
-            tip_force=(float(load[0]), float(load[1]), float(load[2])),
+            tip_load=(float(load[0]), float(load[1]), float(load[2])),
             release=release,
         )
         self.field: FieldSource = UniformField() if field is None else field

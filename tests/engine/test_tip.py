@@ -87,9 +87,9 @@ def test_dead_force_on_the_tip() -> None:
     """Small deflection P L^3/(3 EI), and the force stays as it is when the wire has turned away."""
     wire = magnet(101, 0.0)
     unit = wire.bending_stiffness / L**2
-    small = free(wire, tip_force=(0.0, 1e-3 * unit, 0.0)).equilibrium(L)
+    small = free(wire, tip_load=(0.0, 1e-3 * unit, 0.0)).equilibrium(L)
     assert small.tip[1] / L == pytest.approx(1e-3 / 3.0, rel=2e-4)
-    large = free(wire, tip_force=(0.0, 400.0 * unit, 0.0)).equilibrium(L)
+    large = free(wire, tip_load=(0.0, 400.0 * unit, 0.0)).equilibrium(L)
     np.testing.assert_allclose(large.tip_direction, [0.0, 1.0, 0.0], atol=1e-4)
 
 
@@ -97,7 +97,7 @@ def test_the_energy_of_a_dead_force_is_that_of_a_weight() -> None:
     """Castigliano: of the whole energy at rest, the derivative by the force is where it acts."""
     wire = magnet(41, 0.0)
     unit = wire.bending_stiffness / L**2
-    sims = [free(wire, tip_force=(0.0, f * unit, 0.3 * unit)) for f in (0.999, 1.0, 1.001)]
+    sims = [free(wire, tip_load=(0.0, f * unit, 0.3 * unit)) for f in (0.999, 1.0, 1.001)]
     low, middle, high = (sim.equilibrium(L) for sim in sims)
     work = middle.point.system.new_work()
     energies = [state.point.energy(work)[0] for state in (low, high)]

@@ -79,6 +79,7 @@ def test_remanence_is_a_flux_density_of_the_magnetisation() -> None:
     section = make(remanence=1.2).section(0.01)
     assert section.magnetization == pytest.approx((0.0, 0.0, 1.2 / (4e-7 * np.pi)), rel=1e-9)
     assert section.magnetization[2] == pytest.approx(954.93e3, rel=1e-5)
+    assert section.describe().endswith("magnetised 954.93 kA/m (remanence 1.2 T)")
     across = make(remanence=(0.6, 0.0, 0.6)).section(0.01)
     assert across.magnetization[0] == across.magnetization[2] > 0.0
 
@@ -191,7 +192,7 @@ def test_cantilever_with_a_taper_over_four_decades_of_stiffness() -> None:
     wire = Wire.of(make(diameter=1e-3, taper_to=0.1e-3), length, 201)
     exact = quad(lambda s: (1.0 - s) ** 2 / (1.0 - 0.9 * s) ** 4, 0.0, 1.0)[0] * length**3 / ei
     force = 1e-5 * length / exact
-    sim = mw.Simulation(wire, mw.Lumen.open_space(), tip_force=(0.0, force, 0.0))
+    sim = mw.Simulation(wire, mw.Lumen.open_space(), tip_load=(0.0, force, 0.0))
     assert sim.equilibrium(length).tip[1] == pytest.approx(force * exact, rel=1e-3)
 
 

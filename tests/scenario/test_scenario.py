@@ -326,7 +326,7 @@ radius = "2 mm"
 speed = "10 mm/s"
 distance = "5 mm"
 [environment]
-tip_force = ["0 mN", "0.1 mN", "0 mN"]
+tip_load = ["0 mN", "0.1 mN", "0 mN"]
 """
 
 
@@ -345,7 +345,7 @@ def test_a_wire_in_the_words_of_a_maker_of_devices() -> None:
     assert hook.rest_twist == pytest.approx(math.radians(1000.0))
     assert magnet.inner_radius == 0.1e-3
     assert magnet.magnetization[2] == pytest.approx(954.93e3, rel=1e-5)
-    assert system.tip_force == (0.0, 1e-4, 0.0)
+    assert system.tip_load == (0.0, 1e-4, 0.0)
 
 
 def test_a_wire_of_one_make_is_the_same_in_all_words() -> None:

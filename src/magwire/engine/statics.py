@@ -122,9 +122,10 @@ def find_equilibrium(
     hold: Hold | None = None,
 ) -> Equilibrium:
     """Static equilibrium at a fixed feed and field; see ``Simulation.equilibrium``."""
-    length = system.wire.length  # of sections that sum to it but for rounding
-    feed = within("Simulation", "feed", feed, "m", low=0.0, high=length * (1.0 + 1e-9))
-    feed = min(feed, length)
+    feed, length = finite("Simulation", "feed", feed, "m"), system.wire.length
+    if length < feed <= length * (1.0 + 1e-9):  # sections sum to the length but for rounding
+        feed = length
+    within("Simulation", "feed", feed, "m", low=0.0, high=length)
     twist = finite("Simulation", "twist", twist, "rad")
     part = feed / system.wire.length
     mouth = Mouth(*find_mouth(system.rod, system.guide, part))

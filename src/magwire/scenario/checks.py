@@ -98,11 +98,9 @@ def wire_fits(scenario: Scenario) -> Faults:
     wire, lumen = scenario.wire.largest_radius, scenario.lumen.narrowest
     if wire >= lumen:
         wide = isinstance(scenario.wire, UniformWire) and scenario.wire.radius is None
-        key, what, times = ("wire.radius", "radius", 1.0)
-        if wide:
-            key, what, times = ("wire.diameter", "diameter", 2.0)
+        what, times = ("diameter", 2.0) if wide else ("radius", 1.0)
         yield (
-            f"Input {key} must be smaller than the lumen's smallest {what}, "
+            f"Input wire.{what} must be smaller than the lumen's smallest {what}, "
             f"{show(times * lumen, 'length')}; received {show(times * wire, 'length')}."
         )
 

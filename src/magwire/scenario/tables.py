@@ -302,7 +302,7 @@ class EnvironmentTable(Table):
 
     gravity: Acceleration = preset(["0 m/s^2", "0 m/s^2", "0 m/s^2"])
     fluid_density: DensityOrZero = preset("0 kg/m^3")
-    tip_force: Force = preset(["0 mN", "0 mN", "0 mN"])
+    tip_load: Force = preset(["0 mN", "0 mN", "0 mN"])
 
 
 class OutputTable(Table):

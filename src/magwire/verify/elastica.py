@@ -231,10 +231,8 @@ def _rest_curvature(full: bool) -> Iterator[Line]:
 
 
 def tapered(ratio: float, nodes: int) -> Wire:
-    """A wire whose radius falls linearly to a part of it, with a section for each edge."""
-    middles = (np.arange(nodes - 1) + 0.5) / (nodes - 1)
-    radii = THIN * (1.0 - (1.0 - ratio) * middles)
-    return Wire(tuple(Section(L / (nodes - 1), radius=float(r), **STUFF) for r in radii), nodes)
+    """A wire whose radius falls linearly to a part of it."""
+    return Wire((Section(L, radius=THIN, end_radius=ratio * THIN, **STUFF),), nodes)
 
 
 def stepped(at: float, soft: float, nodes: int) -> Wire:

@@ -52,7 +52,7 @@ def pulled(wire: Wire, force: ArrayLike, *, start: Equilibrium | None = None) ->
     load = np.zeros(3)
     load[: np.size(force)] = force
     load *= wire.bending_stiffness / wire.length**2
-    return free(wire, tip_force=load).equilibrium(wire.length, start=start)
+    return free(wire, tip_load=load).equilibrium(wire.length, start=start)
 
 
 def tip(state: Equilibrium) -> tuple[float, float, float]:
