@@ -80,7 +80,7 @@ def of_file(
         raise InputError(
             "Input --wire must be the wire's diameter, such as '0.6 mm'; received none."
         )
-    _read(words, "diameter", "length", "--wire")  # better said before the file is read
+    _read(words, "diameter", "diameter", "--wire")  # better said before the file is read
     vessel = Vessel.read(path, units, entrance=spot(entrance, "--entrance"), scale=scale)
     lumen = vessel.lumen()
     return lumen, plan(lumen, _wire(words, lumen), demands=_demands(words, Demands()), watch=watch)
@@ -94,8 +94,9 @@ def of_scenario(
     system = job.simulation.system
     lumen, wire = system.lumen, system.wire
     if words["diameter"] is not None:
-        radius = 0.5 * _read(words, "diameter", "length", "--wire")
-        wire = Wire(tuple(replace(part, radius=radius) for part in wire.sections), wire.nodes)
+        radius = 0.5 * _read(words, "diameter", "diameter", "--wire")
+        parts = (replace(part, radius=radius, end_radius=None) for part in wire.sections)
+        wire = Wire(tuple(parts), wire.nodes)
     steered = {
         name: value
         for name in Demands.__dataclass_fields__
@@ -193,7 +194,7 @@ def _finite(row: Mapping[str, str | float | bool]) -> dict[str, str | float | bo
 
 def _wire(words: Words, lumen: Lumen) -> Wire:
     """A wire of one material with a magnet at its tip."""
-    radius = 0.5 * _read(words, "diameter", "length", "--wire")
+    radius = 0.5 * _read(words, "diameter", "diameter", "--wire")
     modulus = _read(words, "modulus", "pressure", "--youngs-modulus")
     magnet = MAGNET * radius
     if words["magnet"] is not None:

@@ -166,7 +166,7 @@ def firm_wall(wire: Wire, bend: float, gap: float) -> Barrier:
     """
     line_force = wire.bending_stiffness / bend**3
     slope = gap * (1.5 * math.log(4.0) + 2.25)  # of its energy at a quarter of its gap, over K
-    return Barrier(max(HARD * wire.body.youngs_modulus, line_force / slope), gap)
+    return Barrier(max(HARD * wire.body.bending_modulus, line_force / slope), gap)
 
 
 def _prospect(

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from magwire.contact import Barrier
 from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
+from magwire.engine.hold import Hold
 from magwire.engine.interrupt import held_back_interrupt
 from magwire.engine.record import Motion, Record, RunInfo
 from magwire.engine.statics import Equilibrium, find_equilibrium
@@ -55,6 +56,8 @@ class Simulation:
         Acceleration, shape (3,) [m/s^2].
     fluid_density
         Of what fills the lumen [kg/m^3]; its buoyancy acts against gravity.
+    tip_load
+        Dead force on the tip, which keeps its direction in space, shape (3,) [N].
     release
         How the guide lets go of the wire (P-15): ``"sliding"``, or node by node as in the paper,
         ``"node"``.
@@ -75,9 +78,11 @@ class Simulation:
         damping: float = 0.01,
         gravity: ArrayLike = (0.0, 0.0, 0.0),
         fluid_density: float = 0.0,
+        tip_load: ArrayLike = (0.0, 0.0, 0.0),
         release: Release = "sliding",
     ) -> None:
         pull = array("Simulation", "gravity", gravity, (3,), "m/s^2")
+        load = array("Simulation", "tip_load", tip_load, (3,), "N")
         self.system = System(
             wire=wire,
             lumen=lumen,
@@ -85,6 +90,7 @@ class Simulation:
             damping=damping,
             gravity=(float(pull[0]), float(pull[1]), float(pull[2])),
             fluid_density=fluid_density,
+            tip_load=(float(load[0]), float(load[1]), float(load[2])),
             release=release,
         )
         self.field: FieldSource = UniformField() if field is None else field
@@ -198,6 +204,7 @@ class Simulation:
         *,
         start: Equilibrium | None = None,
         twist: float = 0.0,
+        hold: Hold | None = None,
     ) -> Equilibrium:
         """Static equilibrium of the wire at a fixed feed and field (P-16).
 
@@ -214,6 +221,10 @@ class Simulation:
             more than one equilibrium: the start decides which is found.
         twist
             Angle by which the guide turns the wire about its axis [rad].
+        hold
+            Where the far end is held, and how; it is free if left out. It is carried there from
+            where it is in ``start``, at the same feed. Stability and sensitivities are those of the
+            held wire.
 
         Returns
         -------
@@ -235,7 +246,7 @@ class Simulation:
         else:
             flux = array("Simulation", "field", field, (3,), "T")
             source = UniformField((float(flux[0]), float(flux[1]), float(flux[2])))
-        return find_equilibrium(self.system, source, feed, start=start, twist=twist)
+        return find_equilibrium(self.system, source, feed, start=start, twist=twist, hold=hold)
 
     def tip_arc(self, position: ArrayLike) -> float:
         """How far the tip has come on the way to the lumen's target, an arc parameter [m].

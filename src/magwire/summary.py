@@ -10,6 +10,7 @@ from magwire.units import show
 
 if TYPE_CHECKING:
     from magwire.results import Result
+    from magwire.wire import Wire
 
 COLUMN = 20
 """Width of the names of the rows."""
@@ -36,6 +37,16 @@ def lines(result: Result, *, steered: bool = False, passive: Result | None = Non
         **_work(result),
     }
     return [f"{name:{COLUMN}}{text}" for name, text in rows.items()]
+
+
+def wire_lines(wire: Wire) -> list[str]:
+    """What the wire is, a line for each section: what was given in other words is converted."""
+    ends = np.cumsum([section.length for section in wire.sections])
+    names = ["wire", *[""] * (len(ends) - 1)]
+    return [
+        f"{name:{COLUMN}}up to {1e3 * end:.4g} mm: {section.describe()}"
+        for name, end, section in zip(names, ends, wire.sections, strict=True)
+    ]
 
 
 def gain(steered: Result, passive: Result) -> str:

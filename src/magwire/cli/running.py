@@ -119,6 +119,8 @@ def carry_out(
 
     for line in summary.lines(result, steered=steered, passive=passive):
         say(line)
+    for line in summary.wire_lines(job.simulation.system.wire):
+        say(line)
     with writing_to(folder):
         from magwire import plot as pictures
         from magwire.scenario import schedule_of, write_schedule

@@ -13,6 +13,7 @@ from magwire.engine.record import Record, Totals
 from magwire.engine.sampling import SAMPLINGS, mismatch, sample
 from magwire.engine.status import Status
 from magwire.engine.system import System
+from magwire.engine.tip import tip_direction
 from magwire.errors import InputError, positive
 from magwire.field import FieldSource
 from magwire.kernels.arrays import Field, Mouth
@@ -115,9 +116,8 @@ class March:
 
     def tip(self) -> tuple[Array, Array]:
         """Position [m] and unit direction of the tip, shape (3,)."""
-        edge = self._state.q[-1, :3] - self._state.q[-2, :3]
         position: Array = self._state.q[-1, :3] * self.system.wire.length
-        return position, edge / np.linalg.norm(edge)
+        return position, tip_direction(self.system, self._state, self._held)
 
     def feeds(self, last: int) -> Array:
         """Feed at the ends of the steps from now on up to ``last``, shape (last - step,) [m]."""

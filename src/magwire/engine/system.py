@@ -47,6 +47,8 @@ class System:
         Acceleration, shape (3,) [m/s^2].
     fluid_density
         Of what fills the lumen [kg/m^3]; its buoyancy acts against gravity.
+    tip_load
+        Dead force on the tip, fixed in space, shape (3,) [N].
     release
         ``"sliding"``: the bending element at the guide's mouth counts with the part that is past
         the entrance; ``"node"``: node by node, as in the paper (P-15).
@@ -59,12 +61,15 @@ class System:
     gravity: tuple[float, float, float] = (0.0, 0.0, 0.0)
     fluid_density: float = 0.0
     release: Release = "sliding"
+    tip_load: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
         nonnegative("Simulation", "damping", self.damping, "1/s")
         nonnegative("Simulation", "fluid_density", self.fluid_density, "kg/m^3")
         gravity = array("Simulation", "gravity", self.gravity, (3,), "m/s^2")
+        tip_load = array("Simulation", "tip_load", self.tip_load, (3,), "N")
         object.__setattr__(self, "gravity", tuple(gravity.tolist()))
+        object.__setattr__(self, "tip_load", tuple(tip_load.tolist()))
         one_of("Simulation", "release", self.release, ("sliding", "node"))
         self._check_edges()
 
@@ -110,6 +115,7 @@ class System:
         energy = self.wire.bending_stiffness / length
         inertia = length**2 / energy
         pull = (mesh.mass - self.fluid_density * mesh.volume)[:, None] * np.array(self.gravity)
+        pull[-1] += self.tip_load
         cell = np.diff(np.concatenate(([0.0], mesh.cell_end)))
         radius = mesh.radius if self.contact.wall == "surface" else np.zeros_like(mesh.radius)
         return Rod(
