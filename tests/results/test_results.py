@@ -14,7 +14,7 @@ import xarray as xr
 
 from magwire.errors import ResultError
 from magwire.results import Result, Writer
-from magwire.results.contract import CONSTANTS, VARIABLES
+from magwire.results.contract import CONSTANTS, DERIVED, VARIABLES
 from records import info, records
 
 TESTS = Path(__file__).parents[1]
@@ -32,12 +32,13 @@ def written(path: Path | None, count: int = 73, status: str = "complete") -> Res
 def test_file_has_the_contract(tmp_path: Path) -> None:
     written(tmp_path / "result.nc")
     with xr.open_dataset(tmp_path / "result.nc", engine="h5netcdf") as data:
-        assert set(data.variables) == set(VARIABLES) | set(CONSTANTS)
-        for name, variable in (VARIABLES | CONSTANTS).items():
+        assert set(data.variables) == set(VARIABLES) | set(DERIVED) | set(CONSTANTS)
+        for name, variable in (VARIABLES | DERIVED | CONSTANTS).items():
             assert data[name].dims == variable.dims
             assert data[name].attrs["units"] == variable.units
             assert data[name].attrs["long_name"] == variable.long_name
-        assert data.sizes == {"time": 73, "node": 20, "xyz": 3, "centreline_point": 60}
+        lengths = {"time": 73, "node": 20, "xyz": 3, "arc": 38, "centreline_point": 60}
+        assert data.sizes == lengths
         assert data.attrs["status"] == "complete"
         assert data.attrs["title"] == "Half-circle"
         assert data.attrs["steps"] == 7200

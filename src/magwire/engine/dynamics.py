@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from magwire.engine.feed import Feed
 from magwire.engine.record import Record, Totals
+from magwire.engine.reaction import reaction
 from magwire.engine.sampling import SAMPLINGS, mismatch, sample
 from magwire.engine.status import Status
 from magwire.engine.system import System
@@ -244,6 +245,7 @@ class March:
         nodes = len(state.q)
         forces, clearance = np.zeros((nodes, 3)), np.zeros(nodes)
         between, stable = observe(self._model(), state, mouth, self._work, forces, clearance)
+        push, torque = reaction(system, mouth, self._work.gradient)
         clearance[: mouth.held + 1] = np.nan
         free = clearance[mouth.held + 1 :]
         if mouth.held < nodes - 1:
@@ -264,6 +266,8 @@ class March:
             clearance_midpoint=between * scales.length if np.isfinite(between) else float("nan"),
             tip_force=float(np.linalg.norm(forces[-1])) * scales.force,
             tip_offset=float(system.path.offset(tip)[0]),
+            push_force=push,
+            guide_torque=torque,
             newton_iterations=float(iterations),
             stable=bool(stable),
             totals=self.totals,

@@ -18,7 +18,8 @@ def observe(model, state, mouth, work, forces, clearance):
 
     Fills the force of the wall on every node, ``forces`` [N+1, 3], and the clearance of every
     free node, ``clearance`` [N+1]; returns the smallest clearance midway between two nodes, and
-    whether the tangent stiffness, without inertia, is positive definite.
+    whether the tangent stiffness, without inertia, is positive definite. Leaves the gradient of
+    the energy, without inertia, in ``work.gradient``: of what is held, too (P-38).
     """
     rod, _, wall, lumen = model
     nodes = state.q.shape[0]
