@@ -52,6 +52,10 @@ class Prospect:
         Largest flux density [T].
     tip_force, wall_force
         Largest force of the wall on the tip, and on the whole wire, summed over its nodes [N].
+    patch_force, force_patch
+        Largest force of the wall on a patch of the wire [N], and the length of the patch [m].
+    push_force, guide_torque
+        Largest push [N] and size of the torque [N m] at the guide.
     clearance
         Smallest clearance, also midway between the nodes [m]; NaN if it did not set out.
     reason
@@ -72,6 +76,10 @@ class Prospect:
     peak_field: float
     tip_force: float
     wall_force: float
+    patch_force: float
+    force_patch: float
+    push_force: float
+    guide_torque: float
     clearance: float
     reason: str
     feed: Array = field(repr=False)
@@ -190,6 +198,10 @@ def _prospect(
         peak_field=0.0,
         tip_force=0.0,
         wall_force=0.0,
+        patch_force=0.0,
+        force_patch=float("nan"),
+        push_force=0.0,
+        guide_torque=0.0,
         clearance=float("nan"),
         reason="",
         feed=none,
@@ -231,7 +243,6 @@ def _travel(
     if result.status == "complete" and not reached:
         reason = f"All of the wire is fed, and {1e3 * (goal - arc[-1]):.4g} mm are left. {reason}"
     flux = np.linalg.norm(result.field, axis=1)
-    pushes = np.linalg.norm(result.dataset["contact_force"].values, axis=2).sum(axis=1)
     return replace(
         nothing,
         reached=reached,
@@ -239,11 +250,15 @@ def _travel(
         came=float(arc.max()),
         peak_field=float(flux.max()),
         tip_force=result.max_tip_force,
-        wall_force=float(pushes.max()),
+        wall_force=result.max_wall_force,
+        patch_force=result.max_patch_force,
+        force_patch=result.force_patch,
+        push_force=result.max_push_force,
+        guide_torque=result.max_guide_torque,
         clearance=result.smallest_clearance,
         reason=reason,
         feed=result.feed,
         arc=arc,
         flux_density=flux,
-        force=pushes,
+        force=result.wall_force,
     )

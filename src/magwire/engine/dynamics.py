@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.engine.feed import Feed
-from magwire.engine.record import Record, Totals
 from magwire.engine.reaction import reaction
+from magwire.engine.record import Record, Totals
 from magwire.engine.sampling import SAMPLINGS, mismatch, sample
 from magwire.engine.status import Status
 from magwire.engine.system import System

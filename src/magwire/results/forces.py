@@ -60,13 +60,15 @@ class Layout:
     def bounds(self) -> Array:
         """Where the cells of the nodes begin and end, shape (nodes + 1,) [m]."""
         middle = 0.5 * (self.station[1:] + self.station[:-1])
-        return np.concatenate(([0.0], middle, [self.length]))
+        found: Array = np.concatenate(([0.0], middle, [self.length]))
+        return found
 
     @cached_property
     def _along(self) -> Array:
         """Arc parameter of the points of the way, shape (q,) [m]."""
         steps = np.linalg.norm(np.diff(self.way[:, :3], axis=0), axis=1)
-        return np.concatenate(([0.0], np.cumsum(steps)))
+        found: Array = np.concatenate(([0.0], np.cumsum(steps)))
+        return found
 
     @cached_property
     def arc(self) -> Array:
@@ -75,7 +77,8 @@ class Layout:
             return np.zeros(0)
         whole = float(self._along[-1])
         bins = int(np.clip(np.ceil(BINS * whole / self.patch), 1, MOST_BINS))
-        return whole / bins * (np.arange(bins) + 0.5)
+        found: Array = whole / bins * (np.arange(bins) + 0.5)
+        return found
 
     def point(self, arc: Array) -> Array:
         """Points and radius of the way at arc parameters, shape (n, 4) [m]."""
@@ -128,7 +131,8 @@ def largest_over(layout: Layout, force: Array, length: float) -> Array:
     """
     begin = np.unique(np.concatenate((layout.bounds, layout.bounds - length)))
     begin = np.clip(begin, 0.0, layout.length - length)
-    return between(layout, force, begin, begin + length).max(axis=1, initial=0.0)
+    found: Array = between(layout, force, begin, begin + length).max(axis=1, initial=0.0)
+    return found
 
 
 def _hat(away: Array, reach: float) -> Array:
@@ -150,11 +154,15 @@ def per_length(layout: Layout, force: Array) -> Array:
 
 
 def magnet(layout: Layout, force: Array) -> Array:
-    """Force on the distal magnet, shape (t,) [N]; NaN without one."""
+    """Force on the distal magnet, shape (t,) [N]; NaN without one.
+
+    The force on a node counts by the part of its cell that is magnetised.
+    """
     begin, end = layout.magnet
     if not end > begin:
         return np.full(len(force), np.nan)
-    found: Array = between(layout, force, np.array([begin]), np.array([end]))[:, 0]
+    inside = np.diff(np.clip(layout.bounds, begin, end)) / np.diff(layout.bounds)
+    found: Array = force @ inside
     return found
 
 

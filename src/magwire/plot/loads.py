@@ -1,0 +1,104 @@
+"""Where the wall presses, as a heat map, and the forces on tip, wire and guide (P-37, P-38)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+from magwire.plot import style
+from magwire.plot.curves import PUSH_LABEL, note
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+Array = NDArray[np.float64]
+COLUMNS = 240
+"""Columns of a heat map at most."""
+CURVES = (
+    ("wall_force", "wire, in all", style.CLEARANCE, 2.4),
+    ("push_force", "push at guide", style.COMPONENTS[2], 1.3),
+    ("tip_force", "tip", style.TIP, 1.1),
+)
+"""Variable, name, colour, width of the line; the tip on top, which may carry all."""
+
+
+def columns_of(push: Array, values: Array) -> tuple[float, Array]:
+    """Push at the end of the last of even columns, and the largest values in each, shape (k, n).
+
+    Where a wire was at the same push more than once, as in a retraction, the largest counts.
+    """
+    count = int(np.clip(len(push) - 1, 1, COLUMNS))
+    last = float(push.max(initial=0.0)) or 1.0
+    where = np.clip((push / last * count).astype(np.int64), 0, count - 1)
+    found = np.full((count, values.shape[1]), -np.inf)
+    np.maximum.at(found, where, values)
+    for k in np.flatnonzero(np.isneginf(found).any(axis=1)):
+        found[k] = values[np.argmin(np.abs(push - last * (k + 0.5) / count))]
+    return last, found
+
+
+def draw_map(ax: Axes, data: xr.Dataset, largest: float) -> Any:
+    """Force per length of the way over arc length and push; colours end at ``largest`` [N/m]."""
+    ax.set_xlabel(PUSH_LABEL)
+    ax.set_ylabel("along the lumen [mm]")
+    ax.grid(visible=False)
+    if "lumen_force" not in data or not data.sizes["time"]:
+        note(ax, "no wall")
+        return None
+    arc = 1e3 * data["arc"].values
+    last, values = columns_of(data["normalized_push"].values, data["lumen_force"].values)
+    end = float(arc[0] + arc[-1])
+    image = ax.imshow(
+        values.T, cmap=style.PRESSURE, vmin=0.0, vmax=largest, extent=(0.0, last, 0.0, end),
+        origin="lower", aspect="auto", interpolation="bilinear", zorder=0,
+    )  # fmt: skip
+    if not np.any(values > 0.0):
+        note(ax, "nothing touches the wall")
+        return image
+    fed = 1e3 * float(data.attrs["length_scale"])
+    ax.plot([0.0, last], [0.0, fed * last], color=style.MUTED, linewidth=0.7, dashes=(4, 3))
+    ax.set_ylim(0.0, end)
+    ax.text(
+        0.04, 0.95, "dashed: length fed", transform=ax.transAxes, va="top",
+        color=style.MUTED, fontsize=6.5,
+    )  # fmt: skip
+    return image
+
+
+def draw_forces(ax: Axes, data: xr.Dataset, passive: xr.Dataset | None = None) -> None:
+    """Forces on tip and wire and the push at the guide [mN]; dashed for a run nobody steered."""
+    runs = [(data, "-")] if passive is None else [(data, "-"), (passive, (0, (3, 1.5)))]
+    lows, highs = [0.0], [0.0]
+    for run, dashes in reversed(runs):
+        for k, (name, label, colour, width) in enumerate(CURVES):
+            if name not in run or not np.isfinite(run[name].values).any():
+                continue
+            force = 1e3 * run[name].values
+            lows.append(float(np.nanmin(force)))
+            highs.append(float(np.nanmax(force)))
+            ax.plot(
+                run["normalized_push"].values, force, color=colour, linestyle=dashes,
+                linewidth=width if dashes == "-" else 0.7 * width, label=label if dashes == "-" else None, zorder=3 + 0.1 * k,
+            )  # fmt: skip
+    ax.axhline(0.0, color=style.MUTED, linewidth=0.5, zorder=1)
+    room = max(highs) - min(lows) or 1.0
+    ax.set_ylim(min(lows) - 0.06 * room, max(highs) + 0.34 * room)  # on top, for the legend
+    ax.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
+    ax.set_xlabel(PUSH_LABEL)
+    ax.set_ylabel("forces [mN]")
+    ax.legend(loc="upper left", ncols=3, borderaxespad=0.1, columnspacing=1.0)
+    if passive is not None:
+        ax.text(
+            0.99, 0.8, "dashed: not steered", transform=ax.transAxes, ha="right", va="top",
+            color=style.MUTED, fontsize=6.5,
+        )  # fmt: skip
+
+
+def most(runs: list[xr.Dataset]) -> float:
+    """Largest force per length of the way in some runs [N/m]; 1 if there is none."""
+    known = [run["lumen_force"].values for run in runs if "lumen_force" in run]
+    return max((float(values.max(initial=0.0)) for values in known), default=0.0) or 1.0
