@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,8 +20,8 @@ Array = NDArray[np.float64]
 COLUMNS = 240
 """Columns of a heat map at most."""
 CURVES = (
-    ("wall_force", "wire, in all", style.CLEARANCE, 2.4),
-    ("push_force", "push at guide", style.COMPONENTS[2], 1.3),
+    ("wall_force", "wire", style.CLEARANCE, 2.4),
+    ("push_force", "push", style.COMPONENTS[2], 1.3),
     ("tip_force", "tip", style.TIP, 1.1),
 )
 """Variable, name, colour, width of the line; the tip on top, which may carry all."""
@@ -36,9 +37,9 @@ def columns_of(push: Array, values: Array) -> tuple[float, Array]:
     where = np.clip((push / last * count).astype(np.int64), 0, count - 1)
     found = np.full((count, values.shape[1]), -np.inf)
     np.maximum.at(found, where, values)
-    for k in np.flatnonzero(np.isneginf(found).any(axis=1)):
-        found[k] = values[np.argmin(np.abs(push - last * (k + 0.5) / count))]
-    return last, found
+    there = np.unique(where)
+    nearest = there[np.abs(np.arange(count)[:, None] - there).argmin(axis=1)]
+    return last, found[nearest]
 
 
 def draw_map(ax: Axes, data: xr.Dataset, largest: float) -> Any:
@@ -71,31 +72,34 @@ def draw_map(ax: Axes, data: xr.Dataset, largest: float) -> Any:
 
 def draw_forces(ax: Axes, data: xr.Dataset, passive: xr.Dataset | None = None) -> None:
     """Forces on tip and wire and the push at the guide [mN]; dashed for a run nobody steered."""
-    runs = [(data, "-")] if passive is None else [(data, "-"), (passive, (0, (3, 1.5)))]
-    lows, highs = [0.0], [0.0]
-    for run, dashes in reversed(runs):
-        for k, (name, label, colour, width) in enumerate(CURVES):
-            if name not in run or not np.isfinite(run[name].values).any():
-                continue
-            force = 1e3 * run[name].values
-            lows.append(float(np.nanmin(force)))
-            highs.append(float(np.nanmax(force)))
-            ax.plot(
-                run["normalized_push"].values, force, color=colour, linestyle=dashes,
-                linewidth=width if dashes == "-" else 0.7 * width, label=label if dashes == "-" else None, zorder=3 + 0.1 * k,
-            )  # fmt: skip
+    drawn = [*_draw_run(ax, data)]
+    if passive is not None:
+        drawn += _draw_run(ax, passive, dashed=True)
+        ax.set_title("dashed: not steered", loc="left")
+    low, high = min(drawn, default=0.0), max(drawn, default=0.0)
+    room = high - low or 1.0
     ax.axhline(0.0, color=style.MUTED, linewidth=0.5, zorder=1)
-    room = max(highs) - min(lows) or 1.0
-    ax.set_ylim(min(lows) - 0.06 * room, max(highs) + 0.34 * room)  # on top, for the legend
+    ax.set_ylim(low - 0.06 * room, high + 0.3 * room)  # room on top for the legend
     ax.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
     ax.set_xlabel(PUSH_LABEL)
     ax.set_ylabel("forces [mN]")
-    ax.legend(loc="upper left", ncols=3, borderaxespad=0.1, columnspacing=1.0)
-    if passive is not None:
-        ax.text(
-            0.99, 0.8, "dashed: not steered", transform=ax.transAxes, ha="right", va="top",
-            color=style.MUTED, fontsize=6.5,
-        )  # fmt: skip
+    if ax.get_legend_handles_labels()[0]:
+        ax.legend(loc="upper left", ncols=3, borderaxespad=0.1, columnspacing=0.9, handlelength=1.1)
+
+
+def _draw_run(ax: Axes, data: xr.Dataset, *, dashed: bool = False) -> Iterator[float]:
+    """Draw the forces of a run; the smallest and the largest of each [mN]."""
+    push = data["normalized_push"].values
+    for k, (name, label, colour, width) in enumerate(CURVES):
+        if name not in data or not np.isfinite(data[name].values).any():
+            continue
+        force = 1e3 * data[name].values
+        (line,) = ax.plot(push, force, color=colour, linewidth=width, zorder=3 + 0.1 * k)
+        if dashed:
+            line.set(linestyle=(0, (3, 1.5)), linewidth=0.7 * width)
+        else:
+            line.set_label(label)
+        yield from (min(0.0, float(np.nanmin(force))), float(np.nanmax(force)))
 
 
 def most(runs: list[xr.Dataset]) -> float:
