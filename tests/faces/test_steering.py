@@ -72,8 +72,8 @@ def test_summary_tells_of_steering(finished: tuple[Path, str]) -> None:
     assert float(rows["not steered"].split()[0]) > 0.0
     assert rows["tip contact-free"] == "yes, at every step"
     assert rows["wire contact-free"].startswith(("yes", "no, though its tip is: up to "))
-    for name in ("peak wire force", "on 5 mm of it", "on the magnet", "peak push at guide"):
-        assert "N, normalised" in rows[name]
+    for name in ("peak wire force", "on 5.13 mm of it", "on the magnet", "peak push at guide"):
+        assert "N, normalised" in rows[name]  # 5.13 mm: two edges of a coarse mesh
     assert rows["largest tip offset"].endswith("mm")
     assert rows["motion"] == "dynamic"
     assert rows["stable"] == "at every record"
@@ -134,7 +134,7 @@ def test_a_free_tip_does_not_hide_what_presses_behind_it(compared: Path) -> None
     data.attrs["first_contact_feed"] = 0.012
     rows = rows_in("\n".join(lines(Result(data), steered=True)))
     assert rows["tip contact-free"] == "yes, at every step"
-    said = "no, though its tip is: up to 96 mN in all, 40 mN on 5 mm"
+    said = "no, though its tip is: up to 96 mN in all, 40 mN on 5.13 mm"
     assert rows["wire contact-free"] == said
 
 

@@ -55,7 +55,8 @@ def draw(data: xr.Dataset, passive: xr.Dataset | None = None) -> Figure:
         FigureCanvasAgg(figure)
         engine: Any = figure.get_layout_engine()
         engine.set(w_pad=0.03, h_pad=0.03, wspace=0.02, hspace=0.02)
-        above, bottom = figure.subfigures(2, 1, height_ratios=(height, LOADS))
+        halves: Any = figure.subfigures(2, 1, height_ratios=(height, LOADS))
+        above, bottom = halves
         left, right = above.subfigures(1, 2, width_ratios=(1.12, 1.0))
         if aspect < WIDE:
             shape, (force, field, clearance) = left, right.subplots(3, 1, sharex=True)

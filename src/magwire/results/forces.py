@@ -77,7 +77,7 @@ class Layout:
             return np.zeros(0)
         whole = float(self._along[-1])
         bins = int(np.clip(np.ceil(BINS * whole / self.patch), 1, MOST_BINS))
-        found: Array = whole / bins * (np.arange(bins) + 0.5)
+        found: Array = whole / bins * (np.arange(bins, dtype=np.float64) + 0.5)
         return found
 
     def point(self, arc: Array) -> Array:
