@@ -148,6 +148,7 @@ def _draw_loads(panel: Any, runs: list[xr.Dataset]) -> list[Any]:
     if mesh is not None:
         bar = panel.colorbar(mesh, ax=axes[: len(runs)], aspect=22, pad=0.02)
         bar.outline.set_visible(False)
+        bar.ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 5, 10]))
         bar.set_label("wall force [N/m]")
     loads.draw_forces(axes[-1], *runs)
     return axes

@@ -179,8 +179,11 @@ class Result:
 
     @property
     def max_wall_force(self) -> float:
-        """Largest force of the wall on the wire, summed over its nodes, over all records [N]."""
-        return self._largest("wall_force")
+        """Largest force of the wall on the wire, summed over its nodes [N].
+
+        Over all records; no less than the largest force on the tip, which is over all steps.
+        """
+        return max(self._largest("wall_force"), self.max_tip_force)
 
     @property
     def force_patch(self) -> float:
@@ -189,8 +192,8 @@ class Result:
 
     @property
     def max_patch_force(self) -> float:
-        """Largest force of the wall on any ``force_patch`` of wire, over all records [N]."""
-        return self._largest("patch_force")
+        """Largest force of the wall on any ``force_patch`` of wire [N]; see ``max_wall_force``."""
+        return max(self._largest("patch_force"), self.max_tip_force)
 
     @property
     def max_magnet_force(self) -> float:
@@ -205,7 +208,7 @@ class Result:
     @property
     def max_guide_torque(self) -> float:
         """Largest size of the torque at the guide over all records [N m]; NaN if unknown."""
-        return self._largest("guide_torque")
+        return float(np.max(np.abs(self.guide_torque), initial=0.0))
 
     @property
     def longest_contact(self) -> float:
@@ -388,11 +391,8 @@ class Result:
         return np.asarray(self.dataset[name].values, dtype=np.float64)
 
     def _largest(self, name: str) -> float:
-        """Largest size over all records, or largest push; zero without records, NaN if unknown."""
-        values = self._array(name)
-        if name == "guide_torque":
-            values = np.abs(values)
-        return float(np.max(values, initial=0.0))
+        """Largest value over all records, no less than zero; NaN if unknown."""
+        return float(np.max(self._array(name), initial=0.0))
 
     def _number(self, name: str) -> float:
         value: Any = self.dataset.attrs[name]
