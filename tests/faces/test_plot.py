@@ -158,6 +158,22 @@ def test_map_shows_where_along_the_lumen_the_wall_is_pressed() -> None:
     assert not shown[:, :12].any()
 
 
+def test_map_of_a_tree_tells_of_what_presses_in_other_branches() -> None:
+    def words(data: xr.Dataset) -> str:
+        axes = plot.draw(data).get_axes()
+        (ax,) = (a for a in axes if a.get_ylabel() == "along the lumen [mm]")
+        return " ".join(text.get_text() for text in ax.texts)
+
+    data = made(info())
+    assert words(data) == "dashed: length fed"
+    data["lumen_force"] = 0.9 * data["lumen_force"]
+    assert "not shown: what presses" in words(data)
+    data["lumen_force"] = 0.0 * data["lumen_force"]
+    assert words(data) == "all in other branches"
+    data["wall_force"] = 0.0 * data["wall_force"]
+    assert words(data) == "nothing touches the wall"
+
+
 def test_map_of_a_retraction_keeps_the_largest_force() -> None:
     push = np.array([0.0, 0.1, 0.2, 0.1, 0.0])
     values = np.array([[0.0], [1.0], [2.0], [3.0], [0.5]])

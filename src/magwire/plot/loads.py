@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 COLUMNS = 240
 """Columns of a heat map at most."""
+ELSEWHERE = 0.02
+"""Part of the wall's force in other branches that is worth a word; sums are rounded to less."""
 CURVES = (
     ("wall_force", "wire", style.CLEARANCE, 2.4),
     ("push_force", "push", style.COMPONENTS[2], 1.3),
@@ -58,16 +60,27 @@ def draw_map(ax: Axes, data: xr.Dataset, largest: float) -> Any:
         origin="lower", aspect="auto", interpolation="bilinear", zorder=0,
     )  # fmt: skip
     if not np.any(values > 0.0):
-        note(ax, "nothing touches the wall")
+        touches = bool(np.any(data["wall_force"].values > 0.0))
+        note(ax, "all in other branches" if touches else "nothing touches the wall")
         return image
     fed = 1e3 * float(data.attrs["length_scale"])
     ax.plot([0.0, last], [0.0, fed * last], color=style.MUTED, linewidth=0.7, dashes=(4, 3))
     ax.set_ylim(0.0, end)
+    words = "dashed: length fed"
+    if _elsewhere(data) > ELSEWHERE:
+        words += "\nnot shown: what presses\nin other branches"
     ax.text(
-        0.04, 0.95, "dashed: length fed", transform=ax.transAxes, va="top",
+        0.04, 0.95, words, transform=ax.transAxes, va="top",
         color=style.MUTED, fontsize=6.5,
     )  # fmt: skip
     return image
+
+
+def _elsewhere(data: xr.Dataset) -> float:
+    """Part of the wall's force that is not on the way to the target, where it is largest."""
+    spacing = 2.0 * float(data["arc"].values[0])
+    shown, whole = spacing * data["lumen_force"].values.sum(axis=1), data["wall_force"].values
+    return float(np.max((whole - shown) / (whole.max(initial=0.0) or 1.0), initial=0.0))
 
 
 def draw_forces(ax: Axes, data: xr.Dataset, passive: xr.Dataset | None = None) -> None:

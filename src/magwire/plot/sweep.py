@@ -28,9 +28,9 @@ SHOWN = {"m": (1e3, "mm"), "T": (1e3, "mT"), "Pa": (1e-6, "MPa"), "A/m": (1e-3, 
 WIDEST = 5
 """Parameters in one figure, at most: the first ones."""
 KINDS = (
-    ("wire clear of the wall", style.COMPONENTS[2], "^"),
-    ("tip clear, wire touches the wall", style.CLEARANCE, "o"),
-    ("tip touches the wall", style.FORCE, "s"),
+    ("no contact", style.COMPONENTS[2], "^"),
+    ("wire touches, tip does not", style.CLEARANCE, "o"),
+    ("tip touches", style.FORCE, "s"),
     ("ended early", style.INK, "x"),
 )
 
@@ -86,9 +86,7 @@ def draw_sweep(table: xr.Dataset) -> Figure:
                 column[-1].set_xticks(range(len(ticks)), ticks)
                 column[-1].set_xlim(-0.5, len(ticks) - 0.5)
         handles, kinds_drawn = _legend(panels)
-        figure.legend(
-            handles, kinds_drawn, loc="outside upper left", ncols=max(1, len(kinds_drawn))
-        )
+        figure.legend(handles, kinds_drawn, loc="outside upper left", ncols=2 * len(names))
     return figure
 
 
