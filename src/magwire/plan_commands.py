@@ -46,6 +46,10 @@ COLUMNS = {
     "peak_field": "mT",
     "tip_force": "mN",
     "wall_force": "mN",
+    "patch_force": "mN",
+    "force_patch": "mm",
+    "push_force": "mN",
+    "guide_torque": "mN m",
     "clearance": "mm",
     "reason": "",
 }
@@ -111,6 +115,7 @@ def table(prospects: Sequence[Prospect]) -> Table:
     from rich.markup import escape
     from rich.table import Table
 
+    patch = next((p.force_patch for p in prospects if math.isfinite(p.force_patch)), 0.0)
     shown = Table(box=None, pad_edge=False, header_style="bold")
     for head in (
         "outlet",
@@ -119,7 +124,9 @@ def table(prospects: Sequence[Prospect]) -> Table:
         "fed [mm]",
         "field [mT]",
         "tip force [mN]",
-        "wall force [mN]",
+        "wire force [mN]",
+        f"on {1e3 * patch:.3g} mm [mN]" if patch else "on a patch [mN]",
+        "push [mN]",
     ):
         shown.add_column(escape(head), justify="left" if head in ("outlet", "reached") else "right")
     for head in ("clearance [mm]", "narrowest [mm]", "tightest bend [mm]"):
@@ -134,6 +141,8 @@ def table(prospects: Sequence[Prospect]) -> Table:
             f"{1e3 * p.peak_field:.3g}",
             f"{1e3 * p.tip_force:.3g}",
             f"{1e3 * p.wall_force:.3g}",
+            f"{1e3 * p.patch_force:.3g}",
+            f"{1e3 * p.push_force:.3g}",
             "" if math.isnan(p.clearance) else f"{1e3 * p.clearance:.3g}",
             f"{p.narrowest * 1e3:.3g} at {p.narrowest_at * 1e3:.4g}",
             bend if math.isinf(p.bend.radius) else f"{bend} at {p.bend.arc * 1e3:.4g}",
@@ -178,6 +187,10 @@ def _row(p: Prospect) -> dict[str, str | float | bool]:
         "peak_field": p.peak_field,
         "tip_force": p.tip_force,
         "wall_force": p.wall_force,
+        "patch_force": p.patch_force,
+        "force_patch": p.force_patch,
+        "push_force": p.push_force,
+        "guide_torque": p.guide_torque,
         "clearance": p.clearance,
     }
     numbers = {name: float(f"{1e3 * value:.6g}") for name, value in values.items()}

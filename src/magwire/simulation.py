@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from magwire.contact import Barrier
 from magwire.engine.dynamics import March
@@ -27,8 +27,10 @@ from magwire.wire import Wire
 if TYPE_CHECKING:
     from magwire.results import Result
 
+Array = NDArray[np.float64]
 
 UPDATE_EVERY = 5e-4  # feed between two observations of a navigator that has no wish [m]
+WAY_POINTS = 2001  # of the way to the target, in the description of a run
 UNSTABLE = (
     "The equilibrium at {:.4g} mm of feed is unstable: a wire leaves it, and quasi-static motion "
     "does not tell where to."
@@ -275,10 +277,19 @@ class Simulation:
             centreline=np.concatenate(points),
             lumen_radius=np.concatenate(radii),
             lumen_branch=np.concatenate(tags),
+            magnet=self.system.wire.magnet,
+            way=self._way(),
             title=title,
             scenario=scenario,
             motion=motion,
         )
+
+    def _way(self) -> Array:
+        """Points and radius of the way to the target, densely along it, shape (q, 4) [m]."""
+        if not self.system.lumen.branches:
+            return np.zeros((0, 4))
+        curve = self.system.path.branches[0].curve
+        return curve.at(np.linspace(0.0, curve.length, WAY_POINTS))
 
 
 def _steps(length: float, feed: Feed, time_step: float) -> int:

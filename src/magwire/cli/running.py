@@ -129,7 +129,8 @@ def carry_out(
         if steered and result.time.size:
             write_schedule(schedule_of(result), folder / SCHEDULE)
     if passive is not None:
-        say(f"{'gained':{summary.COLUMN}}{summary.gain(result, passive)}")
+        for line in summary.gains(result, passive):
+            say(line)
     say(f"{'written to':{summary.COLUMN}}{folder}")
     return max(outcome(run) for run in results)
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.engine.feed import Feed
+from magwire.engine.reaction import reaction
 from magwire.engine.record import Record, Totals
 from magwire.engine.sampling import SAMPLINGS, mismatch, sample
 from magwire.engine.status import Status
@@ -246,6 +247,7 @@ class March:
         middle, along, stable = observe(
             self._model(), state, mouth, self._work, forces, clearance
         )
+        push, torque = reaction(system, mouth, self._work.gradient)
         clearance[: mouth.held + 1] = np.nan
         if mouth.held < nodes - 1:
             self._clearance = min(self._clearance, along * scales.length)
@@ -265,6 +267,8 @@ class March:
             clearance_along=along * scales.length if np.isfinite(along) else float("nan"),
             tip_force=float(np.linalg.norm(forces[-1])) * scales.force,
             tip_offset=float(system.path.offset(tip)[0]),
+            push_force=push,
+            guide_torque=torque,
             newton_iterations=float(iterations),
             stable=bool(stable),
             totals=self.totals,

@@ -19,9 +19,10 @@ from magwire.engine.system import System
 from magwire.engine.uneven import Settled
 from magwire.errors import InputError, array, finite
 from magwire.kernels.arrays import Field, Motion, Mouth, State, Work
-from magwire.kernels.assembly import FIRST, assemble, update_frames
+from magwire.kernels.assembly import FIRST, assemble
+from magwire.kernels.frames import update_frames
 from magwire.kernels.band import factor, solve
-from magwire.kernels.collision import allowed_part
+from magwire.kernels.wall.collision import allowed_part
 from magwire.kernels.newton import (
     ARMIJO,
     HALVINGS,

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from magwire.engine.hold import Hold, carry
 from magwire.engine.point import Point
+from magwire.engine.reaction import reaction
 from magwire.engine.sampling import sample, unsampled_stiffness
 from magwire.engine.sensitivity import Input, Output, derivative
 from magwire.engine.status import Status
@@ -41,6 +42,8 @@ class Equilibrium:
         Nodes, proximal first, shape (nodes, 3) [m].
     wall_force
         Force of the wall on each node, shape (nodes, 3) [N].
+    push_force, guide_torque
+        Of the guide on the wire in front of it: along the guide [N], about it [N m] (P-38).
     clearance
         Of each node to the wall, shape (nodes,) [m]; NaN on the guide.
     stable
@@ -56,6 +59,8 @@ class Equilibrium:
     twist: float
     positions: Array
     wall_force: Array
+    push_force: float
+    guide_torque: float
     clearance: Array
     stable: bool
     residual: float
@@ -148,6 +153,7 @@ def find_equilibrium(
     forces, clearance = np.zeros((nodes, 3)), np.full(nodes, np.nan)
     model = (system.rod, done.field, system.new_wall(), system.walls)
     _, _, stable = observe(model, state, mouth, work, forces, clearance)
+    push, torque = reaction(system, mouth, work.gradient)
     point = Point(system, done.field, state, mouth, far_held=hold is not None)
     if held < system.wire.nodes and not source.affine:
         point = replace(point, unsampled=unsampled_stiffness(system, source, state))
@@ -158,6 +164,8 @@ def find_equilibrium(
         twist=twist,
         positions=state.q[1:, :3] * system.scales.length,
         wall_force=forces[1:] * system.scales.force,
+        push_force=push,
+        guide_torque=torque,
         clearance=clearance[1:] * system.scales.length,
         stable=bool(stable),
         residual=done.residual * system.scales.force,

@@ -27,7 +27,7 @@ THIN = 0.02
 MARGIN = 4.0
 """Margin of the points between the nodes, in dips of the chords between them: with it the chord
 from a point to a node that touches the wall stays inside, too."""
-FINEST = 32
+FINEST = 64
 """Parts of an edge at most; the certificate of a record is what tells beyond that."""
 
 
@@ -72,13 +72,14 @@ def divide(firm: Firmness, edge: float, bulge: float, scale: float, edges: int) 
     two nodes cannot come noticeably nearer to the wall than they are, there is none.
     """
     gap = THIN * firm.activation_gap
-    dip = min(0.125 * bulge * edge**2, 0.5 * edge)
-    parts = min(FINEST, ceil(sqrt(MARGIN * dip / gap)))
+    parts = ceil(edge * sqrt(0.125 * MARGIN * bulge / gap))
+    parts = min(max(parts, 1), FINEST)
+    chord = edge / parts
     return Between(
-        parts=max(parts, 1),
-        stiffness=firm.stiffness * max(parts, 1) / THIN,
+        parts=parts,
+        stiffness=firm.stiffness * parts / THIN,
         gap=gap / scale,
-        margin=MARGIN * dip / max(parts, 1) ** 2 / scale,
-        known=np.full((edges, max(parts, 1), 4), -np.inf),
-        jet=np.zeros((edges, max(parts, 1), 10)),
+        margin=MARGIN * min(0.125 * bulge * chord**2, 0.5 * chord) / scale,
+        known=np.full((edges, parts, 4), -np.inf),
+        jet=np.zeros((edges, parts, 10)),
     )

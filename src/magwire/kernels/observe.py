@@ -41,7 +41,8 @@ def observe(model, state, mouth, work, forces, clearance):
     """Read off a state what a record holds (P-8, P-13, P-16).
 
     Fills the force of the wall on every node, ``forces`` [N+1, 3], and the clearance of every
-    free node, ``clearance`` [N+1].
+    free node, ``clearance`` [N+1]. Leaves the gradient of the energy, without inertia, in
+    ``work.gradient``: of what is held, too (P-38).
 
     Returns
     -------

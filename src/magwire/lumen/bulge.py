@@ -25,10 +25,13 @@ def largest_bulge(arrays: LumenArrays, branches: Sequence[Branch], inset: float)
     """Largest convex curvature of the gap at points that lie ``inset`` [m] off the wall [1/m].
 
     Along a chord the gap falls below the straight line between its values at the ends by at most an
-    eighth of this times the chord's length squared. Found on rings of points along the branches.
+    eighth of this times the chord's length squared. Found on rings of points along the branches; a
+    rounded carina, which they may miss, bends by less than four over the width of the rounding.
     """
     worst = 0.0
     for branch in branches:
+        if branch.blend > 0.0:
+            worst = max(worst, 4.0 / branch.blend)
         points = _rings(branch, inset)
         gap, hessian = np.empty(len(points)), np.empty((len(points), 6))
         hessian_many(arrays, points, gap, hessian)

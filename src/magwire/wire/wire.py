@@ -165,3 +165,20 @@ class Wire:
     def moment_per_length(self) -> float:
         """Largest magnetic moment per unit length [A m]; 0 without magnetisation (P-6)."""
         return max(math.hypot(*section.moment_per_length) for section in self.sections)
+
+    @property
+    def magnet(self) -> tuple[float, float]:
+        """Where the most distal magnet begins and ends, from the proximal end [m]; NaN if none.
+
+        Sections that are magnetised and follow each other are one magnet.
+        """
+        begin = end = math.nan
+        place = self.length
+        for section in reversed(self.sections):
+            if math.hypot(*section.moment_per_length) > 0.0:
+                end = place if math.isnan(end) else end
+                begin = max(place - section.length, 0.0)
+            elif not math.isnan(end):
+                break
+            place -= section.length
+        return begin, end
