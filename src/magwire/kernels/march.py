@@ -12,11 +12,12 @@ from magwire.kernels.arrays import Array, Motion, Mouth
 from magwire.kernels.assembly import clear
 from magwire.kernels.frames import update_frames
 from magwire.kernels.guide import change_held, find_mouth, place_held
-from magwire.kernels.newton import CONVERGED, Limits, copy_state, newton
+from magwire.kernels.newton import CONVERGED, Limits, copy_state, newton, take_step
 from magwire.kernels.scatter import add_vector
 from magwire.kernels.vectors import dot, row
 from magwire.kernels.wall.between import press_edge
 from magwire.kernels.wall.collision import allowed_part
+from magwire.kernels.wall.contact import add_walls
 from magwire.kernels.wall.push import press
 from magwire.kernels.wall.slide import slide
 
@@ -72,11 +73,15 @@ def predict(rod, lumen, wall, state, velocity, held, dt, work, slides):
         for c in range(4):
             free = i > held or (i == held and c == 3)
             work.step[4 * (i - held + 1) + c] = dt * velocity[i, c] if free else 0.0
-    if slides:
-        slide(rod, lumen, wall, state.q, work.step, held, 1.0, work.way)
-        for r in range(len(work.step)):
-            work.step[r] = work.way[r]
     share = allowed_part(rod, lumen, wall, state.q, work.step, held)
+    if slides and share < 1.0:
+        slide(rod, lumen, wall, state.q, work.step, held, 1.0, work.way)
+        take_step(state, work.trial, held, 1.0, work.way)
+        energy, _ = add_walls(rod, lumen, wall, work.trial, held, work.gradient, work.no_band)
+        way = allowed_part(rod, lumen, wall, state.q, work.way, held, wall.gap)
+        if energy < inf and way == 1.0:
+            copy_state(work.trial, state, held)
+            return
     for i in range(held, state.q.shape[0]):
         for c in range(4):
             state.q[i, c] += share * work.step[4 * (i - held + 1) + c]

@@ -207,11 +207,11 @@ def search_along_wall(model, a, b, mouth, motion, work, aim):
     lower, nearest = inf, inf
     for _ in range(HALVINGS):
         slide(rod, lumen, wall, a.q, work.step, held, share, work.way)
-        free = allowed_part(rod, lumen, wall, a.q, work.way, held)
-        take_step(a, b, held, free, work.way)
-        lower, nearest = assemble(model, b, mouth, motion, work.gradient, work.no_band)
-        if lower <= energy + ARMIJO * free * share * slope + slack:
-            return free * share, lower, nearest
+        if allowed_part(rod, lumen, wall, a.q, work.way, held, wall.gap) == 1.0:
+            take_step(a, b, held, 1.0, work.way)
+            lower, nearest = assemble(model, b, mouth, motion, work.gradient, work.no_band)
+            if lower <= energy + ARMIJO * share * slope + slack:
+                return share, lower, nearest
         share *= 0.5
     return 0.0, lower, nearest
 

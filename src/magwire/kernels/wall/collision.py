@@ -50,10 +50,10 @@ def travel(lumen, x, dx, offset, known, jet, limit):
 
 
 @kernel
-def edge_part(rod, lumen, wall, q, step, j, r, limit):
+def edge_part(rod, lumen, wall, q, step, j, r, limit, leeway):
     """Largest part of a step, at most ``limit``, that the points of edge j may take.
 
-    r is the row of its first node.
+    r is the row of its first node; leeway as of ``allowed_part``.
     """
     between = wall.between
     x, y = row(q, j), row(q, j + 1)
@@ -62,7 +62,7 @@ def edge_part(rod, lumen, wall, q, step, j, r, limit):
     length = norm(sub(y, x))
     if clear_edge(rod, wall, q, j, length, farthest / CAUTION + between.margin):
         return limit
-    offset = margin(rod, between, j)
+    offset = margin(rod, between, j) - leeway
     for k in range(1, between.parts):
         s = k / between.parts
         here = combine(1.0 - s, x, s, y)
@@ -74,19 +74,23 @@ def edge_part(rod, lumen, wall, q, step, j, r, limit):
 
 
 @kernel
-def allowed_part(rod, lumen, wall, q, step, held):
-    """Largest part of a step (rows of the band's layout) that keeps the wire inside."""
+def allowed_part(rod, lumen, wall, q, step, held, leeway=0.0):
+    """Largest part of a step (rows of the band's layout) that keeps the wire inside.
+
+    leeway: how far into the wall the way may lead, of a step that is known to end inside.
+    """
     part = 1.0
     nodes = q.shape[0]
     lead = 4 * (held - 1)
     for i in range(held + 1, nodes):
         r = 4 * i - lead
         x, dx = row(q, i), (step[r], step[r + 1], step[r + 2])
-        if not clear_of_wall(x, wall.known[i], part * norm(dx) / CAUTION + rod.offset[i]):
-            part = travel(lumen, x, dx, rod.offset[i], wall.known[i], wall.jet[i], part)
+        offset = rod.offset[i] - leeway
+        if not clear_of_wall(x, wall.known[i], part * norm(dx) / CAUTION + offset):
+            part = travel(lumen, x, dx, offset, wall.known[i], wall.jet[i], part)
     if wall.between.parts > 1:
         for j in range(held, nodes - 1):
-            part = edge_part(rod, lumen, wall, q, step, j, 4 * j - lead, part)
+            part = edge_part(rod, lumen, wall, q, step, j, 4 * j - lead, part, leeway)
     tube = wall.tube
     if tube.stiffness > 0.0 and held < nodes - 1:
         i = nodes - 1
