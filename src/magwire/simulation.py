@@ -36,8 +36,8 @@ UNSTABLE = (
     "does not tell where to."
 )
 OUTSIDE = (
-    "At {:.4g} mm of feed a point between two nodes is {:.3g} um outside the wall: the wire's edges "
-    "are too long for the bend there; use more nodes."
+    "At {:.4g} mm of feed a point between two nodes is {:.3g} um outside the wall: the wire's "
+    "edges are too long for the bend there; use more nodes."
 )
 
 

@@ -5,7 +5,7 @@
 OLD and NEW are checkouts of magwire; the Python that runs this must have magwire's dependencies.
 Wall times differ between any two runs and are left out. Prints a line for each scenario and
 variable that differs, with the largest difference over the variable's largest value; exit status 1
-if any does. With ``--keep`` the results stay, and results that are there already are not made again.
+if any does. With ``--keep`` the results stay, and those that are there already are not made again.
 """
 
 from __future__ import annotations
@@ -80,9 +80,8 @@ def main() -> int:
         kind = "passive" if options.passive else "steered"
         places = [kept / which / kind / name for which in ("old", "new")]
         checkouts = (options.old.resolve(), options.new.resolve())
-        if not all(
-            [run(c, name, p, options.passive) for c, p in zip(checkouts, places, strict=True)]
-        ):
+        made = [run(c, name, p, options.passive) for c, p in zip(checkouts, places, strict=True)]
+        if not all(made):
             bad += 1
             continue
         found = differences(*(place / "result.nc" for place in places))

@@ -21,7 +21,7 @@ def main(names: list[str]) -> None:
             table = csv.writer(file, lineterminator="\n")
             table.writerow(COLUMNS)
             table.writerows([f"{value:.4f}" for value in row] for row in kept)
-        print(name, rows.max(axis=0))  # noqa: T201
+        print(name, rows.max(axis=0))
 
 
 if __name__ == "__main__":

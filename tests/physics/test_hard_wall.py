@@ -9,16 +9,15 @@ import magwire as mw
 from hard_walls import departures, run
 
 THIN = mw.Barrier(100e3, 20e-6)
-TODAY = pytest.mark.xfail(reason="the default wall of 1 kPa and 0.1 mm is too soft here")
 
 
 @pytest.mark.parametrize(
     ("case", "wall"),
     [
-        pytest.param("sinusoid", None, marks=TODAY),
-        pytest.param("helix", None, marks=TODAY),
-        pytest.param("cone", None, marks=TODAY),
-        pytest.param("thin", None, marks=TODAY),
+        pytest.param("sinusoid", None),
+        pytest.param("helix", None),
+        pytest.param("cone", None),
+        pytest.param("thin", None),
         ("sinusoid", THIN),
         ("helix", THIN),
         ("cone", THIN),

@@ -20,9 +20,8 @@ from magwire.engine.uneven import Settled
 from magwire.errors import InputError, array, finite
 from magwire.kernels.arrays import Field, Motion, Mouth, State, Work
 from magwire.kernels.assembly import FIRST, assemble
-from magwire.kernels.frames import update_frames
 from magwire.kernels.band import factor, solve
-from magwire.kernels.wall.collision import allowed_part
+from magwire.kernels.frames import update_frames
 from magwire.kernels.newton import (
     ARMIJO,
     HALVINGS,
@@ -33,6 +32,7 @@ from magwire.kernels.newton import (
     copy_state,
     take_step,
 )
+from magwire.kernels.wall.collision import allowed_part
 
 Array = NDArray[np.float64]
 

@@ -80,7 +80,8 @@ class Between(NamedTuple):
 
     parts: into how many an edge is divided, 1 if the nodes are enough; stiffness, gap of the
     points' barrier; margin that they keep from the wall; known [N, parts, 4], jet [N, parts, 10] as
-    in ``Wall``.
+    in ``Wall``; clear [N, 7]: where an edge's nodes were, and how far they may move from there
+    before one of its points may feel the wall.
     """
 
     parts: int
@@ -89,6 +90,7 @@ class Between(NamedTuple):
     margin: float
     known: Array
     jet: Array
+    clear: Array
 
 
 class Wall(NamedTuple):

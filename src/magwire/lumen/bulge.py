@@ -1,4 +1,4 @@
-"""How sharply a lumen's wall bulges inward: what a chord between two clear points may lose (P-8)."""
+"""How sharply a lumen's wall bulges inward, and so what a chord along it may lose (P-8)."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ SPACING = 0.25  # of the rings of points, over the radius
 AROUND = 12  # points on a ring
 RINGS = 20_000  # on a branch, at most
 NEAR = 0.3  # points this near to the wall count as points of it, over the radius
+FLARE = 0.3  # curvature of an outlet's flare, over its radius, as far out as wires lie on it
 XX, XY, XZ, YY, YZ, ZZ = range(6)
 SYMMETRIC = [XX, XY, XZ, XY, YY, YZ, XZ, YZ, ZZ]
 
@@ -26,12 +27,15 @@ def largest_bulge(arrays: LumenArrays, branches: Sequence[Branch], inset: float)
 
     Along a chord the gap falls below the straight line between its values at the ends by at most an
     eighth of this times the chord's length squared. Found on rings of points along the branches; a
-    rounded carina, which they may miss, bends by less than four over the width of the rounding.
+    rounded carina, which they may miss, bends by less than four over the width of the rounding, and
+    the flare of an outlet by a third over its radius, where a wire leaves along the wall.
     """
     worst = 0.0
     for branch in branches:
         if branch.blend > 0.0:
             worst = max(worst, 4.0 / branch.blend)
+        if branch.open_end:
+            worst = max(worst, FLARE / float(branch.radius[-1]))
         points = _rings(branch, inset)
         gap, hessian = np.empty(len(points)), np.empty((len(points), 6))
         hessian_many(arrays, points, gap, hessian)

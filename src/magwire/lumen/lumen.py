@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from magwire.errors import InputError, array, nonnegative, positive, whole
 from magwire.kernels.centreline import LumenArrays
 from magwire.lumen import shapes
-from magwire.lumen.bulge import largest_bulge
 from magwire.lumen.branch import Bend, Branch
+from magwire.lumen.bulge import largest_bulge
 from magwire.lumen.grid import scaled
 from magwire.lumen.search import Search
 from magwire.lumen.tree import join

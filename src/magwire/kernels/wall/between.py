@@ -15,7 +15,7 @@ from magwire.kernels._jit import kernel
 from magwire.kernels.blocks import full, sym_scale
 from magwire.kernels.scatter import add_block, add_diagonal, add_vector
 from magwire.kernels.vectors import combine, norm, row, sub
-from magwire.kernels.wall.push import clear_of_wall, push, query
+from magwire.kernels.wall.push import push
 
 
 @kernel
@@ -25,20 +25,23 @@ def margin(rod, between, j):
 
 
 @kernel
-def at_least(x, known, offset):
-    """Lower bound of a node's clearance, from what is known of the gap near it."""
-    return known[3] - norm(sub(x, (known[0], known[1], known[2]))) - offset
+def clear_edge(between, q, j, reach):
+    """Whether no point of edge j can feel the wall, also if its nodes move on by ``reach``."""
+    known = between.clear[j]
+    room = known[6] - reach
+    x, y, z = q[j, 0] - known[0], q[j, 1] - known[1], q[j, 2] - known[2]
+    u, v, w = q[j + 1, 0] - known[3], q[j + 1, 1] - known[4], q[j + 1, 2] - known[5]
+    moved = max(x * x + y * y + z * z, u * u + v * v + w * w)
+    return room >= 0.0 and moved <= room * room
 
 
 @kernel
-def clear_edge(rod, wall, q, j, length, reach):
-    """Whether all of edge j is known to be farther than ``reach`` from the wall.
-
-    Expects that the gap was asked for at or near both nodes.
-    """
-    here = at_least(row(q, j), wall.known[j], rod.offset[j])
-    there = at_least(row(q, j + 1), wall.known[j + 1], rod.offset[j + 1])
-    return 0.5 * (here + there - length) >= reach  # the gap is 1-Lipschitz
+def remember(between, q, j, room):
+    """Keep how far edge j may move from here on."""
+    for c in range(3):
+        between.clear[j, c] = q[j, c]
+        between.clear[j, 3 + c] = q[j + 1, c]
+    between.clear[j, 6] = room
 
 
 @kernel
@@ -50,17 +53,20 @@ def press_edge(rod, lumen, wall, state, j, gradient, band, r):
     between = wall.between
     energy = 0.0
     nearest = inf
+    room = inf
     offset = margin(rod, between, j)
     stiffness = between.stiffness * rod.rest[j] / between.parts
     for k in range(1, between.parts):
         s = k / between.parts
         x = combine(1.0 - s, row(state.q, j), s, row(state.q, j + 1))
-        known = between.known[j, k]
-        if clear_of_wall(x, known, between.gap + offset):
+        known, jet = between.known[j, k], between.jet[j, k]
+        away = norm(sub(x, (known[0], known[1], known[2])))
+        left = known[3] - offset - between.gap - away
+        if left >= away:  # the point knows its surroundings well enough
+            room = min(room, left)
             continue
-        d, value, pushed, block = push(
-            lumen, x, stiffness, between.gap, offset, known, between.jet[j, k]
-        )
+        d, value, pushed, block = push(lumen, x, stiffness, between.gap, offset, known, jet)
+        room = min(room, known[3] - offset - between.gap)
         if d < inf:
             nearest = min(nearest, d)
             energy += value
@@ -70,6 +76,7 @@ def press_edge(rod, lumen, wall, state, j, gradient, band, r):
                 add_diagonal(band, r, sym_scale((1.0 - s) * (1.0 - s), block))
                 add_diagonal(band, r + 4, sym_scale(s * s, block))
                 add_block(band, r + 4, r, full(sym_scale(s * (1.0 - s), block)))
+    remember(between, state.q, j, room)
     return nearest, energy
 
 
@@ -78,13 +85,8 @@ def add_between(rod, lumen, wall, state, held, gradient, band):
     """Barrier energy of the edges past the last held node; see ``press_edge``."""
     energy = 0.0
     nearest = inf
-    between = wall.between
-    reach = between.gap + between.margin
-    x = row(state.q, held)
-    if not clear_of_wall(x, wall.known[held], rod.offset[held] + reach + state.length[held]):
-        query(lumen, x, wall.known[held], wall.jet[held])
     for j in range(held, state.length.shape[0]):
-        if not clear_edge(rod, wall, state.q, j, state.length[j], reach):
+        if not clear_edge(wall.between, state.q, j, 0.0):
             r = 4 * (j - held + 1)
             d, value = press_edge(rod, lumen, wall, state, j, gradient, band, r)
             nearest = min(nearest, d)

@@ -7,7 +7,7 @@ The gap is 1-Lipschitz, so a point may move by less than its gap. Repeating that
 from __future__ import annotations
 
 from magwire.kernels._jit import kernel
-from magwire.kernels.vectors import combine, norm, row, sub
+from magwire.kernels.vectors import combine, norm, row
 from magwire.kernels.wall.between import clear_edge, margin
 from magwire.kernels.wall.gap import gap_value
 from magwire.kernels.wall.push import clear_of_wall, query
@@ -58,9 +58,8 @@ def edge_part(rod, lumen, wall, q, step, j, r, limit, leeway):
     between = wall.between
     x, y = row(q, j), row(q, j + 1)
     dx, dy = (step[r], step[r + 1], step[r + 2]), (step[r + 4], step[r + 5], step[r + 6])
-    farthest = limit * max(norm(dx), norm(dy))
-    length = norm(sub(y, x))
-    if clear_edge(rod, wall, q, j, length, farthest / CAUTION + between.margin):
+    farthest = limit * max(norm(dx), norm(dy)) / CAUTION
+    if clear_edge(between, q, j, farthest - between.gap):
         return limit
     offset = margin(rod, between, j) - leeway
     for k in range(1, between.parts):

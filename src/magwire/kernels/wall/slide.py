@@ -60,15 +60,15 @@ def slide(rod, lumen, wall, q, step, held, part, way):
         r = 4 * j - lead
         dx, dy = (way[r], way[r + 1], way[r + 2]), (way[r + 4], way[r + 5], way[r + 6])
         x, y = row(q, j), row(q, j + 1)
-        length = norm(combine(1.0, y, -1.0, x))
-        if clear_edge(rod, wall, q, j, length, max(norm(dx), norm(dy)) + between.margin):
+        if clear_edge(between, q, j, max(norm(dx), norm(dy)) - between.gap):
             continue
         offset = margin(rod, between, j)
         for k in range(1, between.parts):
             s = k / between.parts
             here = combine(1.0 - s, x, s, y)
-            move = combine(1.0 - s, (way[r], way[r + 1], way[r + 2]),
-                           s, (way[r + 4], way[r + 5], way[r + 6]))
+            move = combine(
+                1.0 - s, (way[r], way[r + 1], way[r + 2]), s, (way[r + 4], way[r + 5], way[r + 6])
+            )
             known = between.known[j, k]
             if not clear_of_wall(here, known, norm(move) + offset):
                 bent = push_back(lumen, here, move, offset, known, between.jet[j, k])
