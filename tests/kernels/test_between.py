@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import magwire as mw
 from magwire.engine.wall import THIN, divide
@@ -30,12 +31,17 @@ def chords(lumen: Lumen) -> Case:
     count = len(rod.station)
     curve = lumen.branches[0].curve
     s = 0.1 * edge + edge * np.arange(count)
-    centre, tangent, bent = (curve.at(s, k)[:, :3] for k in (0, 1, 2))
+    centre, bent = curve.at(s)[:, :3], curve.at(s, 2)[:, :3]
     inward = bent / np.linalg.norm(bent, axis=1)[:, None]
-    inner = 1.0 / np.linalg.norm(np.cross(tangent, bent), axis=1) - RADIUS  # of the wall's bend
-    dip = 0.125 * edge**2 * inner / (inner + RADIUS) ** 2
+    part = np.linspace(0.0, 1.0, 41)[None, :, None]
     q = np.zeros((count, 4))
-    q[:, :3] = centre + (RADIUS - clearance - dip)[:, None] * inward
+
+    def nearest(off: float) -> float:
+        q[:, :3] = centre + off * inward
+        x, y = q[:-1, None, :3], q[1:, None, :3]
+        return float(lumen.gap((x * (1.0 - part) + y * part).reshape(-1, 3)).min()) - clearance
+
+    q[:, :3] = centre + brentq(nearest, 0.0, RADIUS) * inward
     state = state_at(where, q, np.random.default_rng(1).normal(size=(count - 1, 3)), 1)
     model = (rod, random_case(0).model[1], where.new_wall(), where.walls)
     return Case(where, model, state, Mouth(1, 1.0), Motion(0.0, np.zeros_like(q)))
@@ -45,7 +51,7 @@ def chords(lumen: Lumen) -> Case:
 def test_against_differences(name: str) -> None:
     bend = {
         "half-circle": lambda: Lumen.half_circle(0.5, RADIUS),
-        "helix": lambda: Lumen.helix(0.3, 0.4, 2.0, RADIUS),
+        "helix": lambda: Lumen.helix(0.4, 0.2, 2.5, RADIUS),
     }[name]()
     case = chords(bend)
     energy, gradient, hessian = derivatives(case)

@@ -62,7 +62,7 @@ def press_edge(rod, lumen, wall, state, j, gradient, band, r):
         known, jet = between.known[j, k], between.jet[j, k]
         away = norm(sub(x, (known[0], known[1], known[2])))
         left = known[3] - offset - between.gap - away
-        if left >= away:  # the point knows its surroundings well enough
+        if left >= 0.0:
             room = min(room, left)
             continue
         d, value, pushed, block = push(lumen, x, stiffness, between.gap, offset, known, jet)
