@@ -75,7 +75,9 @@ def pressed(lumen: Lumen, seed: int) -> Case:
     q[:, :3] = centre + (0.05 - clearance)[:, None] * across
     state = state_at(where, q, rng.normal(size=(len(s) - 1, 3)), 1)
     field = random_case(0).model[1]
-    model = (rod, field, where.new_wall(), where.walls)
+    wall = where.new_wall()
+    wall = wall._replace(between=wall.between._replace(parts=1))  # nodes alone
+    model = (rod, field, wall, where.walls)
     return Case(where, model, state, Mouth(1, 1.0), Motion(0.0, np.zeros_like(q)))
 
 
