@@ -25,13 +25,14 @@ from magwire.kernels.centreline import (
     LumenArrays,
     settle,
 )
-from magwire.kernels.wall.seeds import DENSITY, deepest, ridges, spread
+from magwire.kernels.wall.seeds import DENSITY, deepest, ridges, spread, valleys
 from magwire.lumen.branch import Branch
 
 Array = NDArray[np.float64]
 
 VOXELS = 2_000_000  # at most; larger lumens get larger voxels
 FINENESS = 0.5  # edge length of a voxel over the smallest radius
+FINE = 16.0  # places per smallest radius where valleys are looked for, at least
 SAME = 1e-4  # distance of settled seeds that are one, over the edge of a voxel
 BLENDED = 2.0  # how far below the deepest branch one is still felt, in blends: three may blend
 
@@ -48,6 +49,7 @@ class _Voxels(NamedTuple):
 
 NOWHERE = _Voxels(np.zeros(3), 1.0, np.zeros(3, dtype=np.int64), 0.0, 0.0)
 NO_SEEDS = np.zeros((0, 3))
+NOT_FORKED = np.zeros(0, dtype=bool)
 
 
 def build(branches: Sequence[Branch]) -> LumenArrays:
@@ -70,9 +72,11 @@ def build(branches: Sequence[Branch]) -> LumenArrays:
     felt = BLENDED * float(table[:, BLEND].max())
     found = _ridges(samples, place, felt, best, near)
     seeds = np.column_stack([found[:, 0], samples[found[:, 1]][:, [5, 4]]])
-    seeds = np.concatenate([seeds, at_mouths])
+    at_valleys = _valley_seeds(branches, place, felt, best, near)
+    seeds = np.concatenate([seeds, at_mouths, at_valleys])
+    forked = np.arange(len(seeds)) >= len(seeds) - len(at_valleys)
     coefficients = np.concatenate([b.curve.coefficients for b in branches])
-    return _pack(coefficients, table, voxels, _thin(seeds, float(samples[:, 3].min())))
+    return _pack(coefficients, table, voxels, *_thin(seeds, forked, float(samples[:, 3].min())))
 
 
 def _table(branches: Sequence[Branch]) -> Array:
@@ -176,13 +180,61 @@ def _mouth_seeds(mouths: Array, table: Array, voxels: _Voxels) -> Array:
     return np.concatenate(parts)
 
 
-def _thin(seeds: Array, narrowest: float) -> Array:
-    """Seeds by voxel, branch and arc, without those that follow close upon another."""
-    seeds = seeds[np.lexsort((seeds[:, 2], seeds[:, 1], seeds[:, 0]))]
+def _valley_seeds(
+    branches: Sequence[Branch],
+    place: tuple[Array, float, NDArray[np.int64], float],
+    blend: float,
+    best: NDArray[np.float32],
+    near: NDArray[np.uint8],
+) -> Array:
+    """Seeds on both sides of valleys, where there are any: voxel, branch, arc."""
+    places = np.concatenate([_places(b, i, 4.0 * place[3]) for i, b in enumerate(branches)])
+    if len(places) == 0:
+        return NO_SEEDS
+    found = np.empty((1024, 2), dtype=np.int64)
+    while True:
+        state = np.full(len(best), -1, dtype=np.int64)
+        count = valleys(places, *place, blend, best, near, state, found)
+        if count <= len(found):
+            where = places[found[:count, 1]][:, [13, 12]]
+            seeds: Array = np.column_stack([found[:count, 0], where])
+            return seeds
+        found = np.empty((count, 2), dtype=np.int64)
+
+
+def _places(branch: Branch, index: int, beyond: float) -> Array:
+    """Places of a branch where ``in_valley`` may hold, and the ones next to them.
+
+    None of a tube that does not bend much and has the same radius everywhere. Columns as named in
+    ``kernels.wall.seeds``; ``beyond`` is added to the distance of two radii up to which it counts.
+    """
+    curve = branch.curve
+    narrowest = float(curve.at(curve.knots())[:, 3].min())
+    parts = int(np.ceil(FINE * curve.spacing / narrowest))
+    s = np.linspace(0.0, curve.length, parts * len(curve.coefficients) + 1)
+    ball, first, second = curve.at(s), curve.at(s, 1), curve.at(s, 2)
+    bend = np.linalg.norm(second[:, :3], axis=1) + np.maximum(second[:, 3], 0.0)
+    may = (2.0 * ball[:, 3] + beyond) * bend >= 1.0 - first[:, 3] ** 2
+    may = may | np.append(may[1:], False) | np.append(False, may[:-1])
+    rest = np.tile([float(index), s[1]], (len(s), 1))
+    places: Array = np.column_stack([ball, first, second, s, rest])[may]
+    return places
+
+
+def _thin(
+    seeds: Array, forked: NDArray[np.bool_], narrowest: float
+) -> tuple[Array, NDArray[np.bool_]]:
+    """Seeds by voxel, branch and arc, without those close to another.
+
+    Those at a valley, ``forked``, all stay: two maxima may be as close as one likes.
+    """
+    order = np.lexsort((seeds[:, 2], seeds[:, 1], seeds[:, 0]))
+    seeds, forked = seeds[order], forked[order]
     same = (np.diff(seeds[:, :2], axis=0) == 0.0).all(axis=1)
     close = same & (np.diff(seeds[:, 2]) < 0.5 * narrowest)
-    kept: Array = seeds[np.concatenate([[True], ~close])]
-    return kept
+    dropped = np.concatenate([[False], close]) | np.concatenate([close & forked[1:], [False]])
+    kept = forked | ~dropped
+    return seeds[kept], forked[kept]
 
 
 def _pack(
@@ -190,6 +242,7 @@ def _pack(
     table: Array,
     voxels: _Voxels = NOWHERE,
     seeds: Array = NO_SEEDS,
+    forked: NDArray[np.bool_] = NOT_FORKED,
 ) -> LumenArrays:
     """The arrays as the kernels take them."""
     voxel, branch = seeds[:, 0].astype(np.int64), seeds[:, 1].astype(np.int32)
@@ -198,8 +251,10 @@ def _pack(
     if len(seeds) > 0:
         place = np.unravel_index(voxel, tuple(voxels.shape))
         middles = voxels.corner + (np.stack(place, axis=1) + 0.5) * voxels.cell
-        settle(coefficients, table, branch, middles, voxels.slack, settled)
-        same = (voxel[1:] == voxel[:-1]) & (branch[1:] == branch[:-1])
+        alone = settled[~forked]  # at a valley the centre's maximum may not be the point's
+        settle(coefficients, table, branch[~forked], middles[~forked], voxels.slack, alone)
+        settled[~forked] = alone
+        same = ~forked[1:] & (voxel[1:] == voxel[:-1]) & (branch[1:] == branch[:-1])
         same &= np.abs(np.diff(settled[:, 0])) < SAME * voxels.cell
         kept = np.concatenate([[True], ~same])
         voxel, branch, settled = voxel[kept], branch[kept], settled[kept]
