@@ -13,7 +13,7 @@ import pytest
 import magwire as mw
 from magwire.cli import main
 from magwire.plan_commands import _wire
-from magwire.planning import fitted
+from magwire.planning import firm_wall, fitted
 from magwire.plot import prospects as maps
 from magwire.scenario import load
 
@@ -159,6 +159,19 @@ def test_a_wire_is_made_long_enough_and_stays_the_same_otherwise() -> None:
     assert longer.sections[1:] == WIRE.sections[1:]
     assert replace(longer.sections[0], length=WIRE.sections[0].length) == WIRE.sections[0]
     assert fitted(WIRE, 0.02) is WIRE
+
+
+def test_the_wall_bends_the_wire_at_a_quarter_of_its_gap() -> None:
+    """The slope of the barrier's energy there, by differences, is the line force EI/rho^3."""
+    bend, gap = 1.5e-3, 0.1e-3
+    wall = firm_wall(WIRE, bend, gap)
+    assert wall.activation_gap == gap
+    d = 0.25 * gap + np.array([-1e-9, 1e-9])
+    energy = -wall.stiffness * (d - gap) ** 2 * np.log(d / gap)
+    force = -np.diff(energy)[0] / 2e-9
+    assert force == pytest.approx(WIRE.bending_stiffness / bend**3, rel=1e-4)
+    modulus = WIRE.sections[0].youngs_modulus
+    assert firm_wall(WIRE, np.inf, gap).stiffness == pytest.approx(1e-3 * modulus)
 
 
 def test_what_cannot_be_planned_is_refused() -> None:

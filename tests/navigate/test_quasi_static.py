@@ -118,7 +118,7 @@ def test_an_unstable_equilibrium_ends_the_run() -> None:
 
 
 def test_no_force_of_a_state_that_did_not_converge() -> None:
-    barrier = Barrier(1e-6, wall="centreline")  # it would hold the wire only within round-off
+    barrier = Barrier(1e-12, wall="centreline")  # it would hold the wire only within round-off
     sim = Simulation(paper_wire(), lumen("half-circle"), contact=barrier)
     result = sim.run(Feed(1e-3, 0.03), motion="quasi-static")
     assert result.status == "not converged"

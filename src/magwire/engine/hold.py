@@ -146,7 +146,7 @@ def _newton(
         work.step[FIRST:last] = -forces
         solve(work.band, work.step, FIRST, last)
         slope = float(forces @ work.step[FIRST:last])
-        share = allowed_part(model[0], model[3], model[2], state.q, work.step, held)
+        share = allowed_part(model[0], model[3], model[2], state.q, work.step, held, 0.0)
         slack = ROUND_OFF * (1.0 + abs(energy))
         copy_state(state, work.trial, held)
         for _ in range(HALVINGS):

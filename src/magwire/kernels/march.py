@@ -73,7 +73,7 @@ def predict(rod, lumen, wall, state, velocity, held, dt, work, slides):
         for c in range(4):
             free = i > held or (i == held and c == 3)
             work.step[4 * (i - held + 1) + c] = dt * velocity[i, c] if free else 0.0
-    share = allowed_part(rod, lumen, wall, state.q, work.step, held)
+    share = allowed_part(rod, lumen, wall, state.q, work.step, held, 0.0)
     if slides and share < 1.0:
         slide(rod, lumen, wall, state.q, work.step, held, 1.0, work.way)
         take_step(state, work.trial, held, 1.0, work.way)

@@ -116,34 +116,25 @@ def take_step(a, b, held, part, step):
 
 
 @part
-def turn_step(a, b, held, part, step, way):
-    """Configuration b as of ``take_step``, but with edges that turn instead of growing longer.
+def turn_step(a, held, part, step, way):
+    """Fill ``way`` with the step ``part * step`` from a, but with edges that turn.
 
     A straight step lengthens an edge that turns by an angle by half of its square, which a stiff
     edge resists: a stiff tip could turn by no more than the square root of its strain. Here every
-    edge takes the direction of the straight step and its length to first order. Fills ``way`` with
-    the change of the unknowns.
+    edge takes the direction of the straight step and its length to first order.
     """
     nodes = a.q.shape[0]
-    for i in range(held - 1, held + 1):
-        for c in range(4):
-            b.q[i, c] = a.q[i, c] + part * step[4 * (i - held + 1) + c]
-            way[4 * (i - held + 1) + c] = b.q[i, c] - a.q[i, c]
+    for r in range(8):
+        way[r] = part * step[r]
     for i in range(held + 1, nodes):
         r = 4 * (i - held + 1)
-        x, y = row(a.q, i - 1), row(a.q, i)
+        edge = sub(row(a.q, i), row(a.q, i - 1))
         de = (step[r] - step[r - 4], step[r + 1] - step[r - 3], step[r + 2] - step[r - 2])
-        e = combine(1.0, sub(y, x), part, de)
-        length = a.length[i - 1] + part * dot(row(a.tangent, i - 1), de)
-        size = length / norm(e)
+        e = combine(1.0, edge, part, de)
+        size = (a.length[i - 1] + part * dot(row(a.tangent, i - 1), de)) / norm(e)
         for c in range(3):
-            b.q[i, c] = b.q[i - 1, c] + size * e[c]
-        b.q[i, 3] = a.q[i, 3] + part * step[r + 3]
-        for c in range(4):
-            way[r + c] = b.q[i, c] - a.q[i, c]
-    for c in range(3):
-        b.director[held - 1, c] = a.director[held - 1, c]
-    update_frames(a, b, held)
+            way[r + c] = way[r - 4 + c] + size * e[c] - edge[c]
+        way[r + 3] = part * step[r + 3]
 
 
 @kernel
@@ -171,7 +162,7 @@ def longest(step, held, nodes):
 
 
 @part
-def search(model, a, b, mouth, motion, work, aim, turn):
+def search(model, a, b, mouth, motion, work, limits, aim):
     """Halve the step from a until the energy of b falls enough.
 
     aim: energy of a, its slope along the step, round-off. Returns the part of the step that was
@@ -180,35 +171,25 @@ def search(model, a, b, mouth, motion, work, aim, turn):
     rod, _, wall, lumen = model
     held = mouth.held
     energy, slope, slack = aim
-    share = allowed_part(rod, lumen, wall, a.q, work.step, held)
     lower, nearest = inf, inf
+    if limits.slide:
+        share = min(1.0, FARTHEST / longest(work.step, held, a.q.shape[0]))
+        leeway = wall.gap
+    else:
+        share = allowed_part(rod, lumen, wall, a.q, work.step, held, 0.0)
+        leeway = 0.0
     for _ in range(HALVINGS):
-        take_step(a, b, held, share, work.step)
-        lower, nearest = assemble(model, b, mouth, motion, work.gradient, work.no_band)
-        if lower <= energy + ARMIJO * share * slope + slack:
-            return share, lower, nearest
-        if share <= turn:
-            turn_step(a, b, held, share, work.step, work.way)
-            if allowed_part(rod, lumen, wall, a.q, work.way, held) == 1.0:
-                lower, nearest = assemble(model, b, mouth, motion, work.gradient, work.no_band)
-                if lower <= energy + ARMIJO * share * slope + slack:
-                    return share, lower, nearest
-        share *= 0.5
-    return 0.0, lower, nearest
-
-
-@part
-def search_along_wall(model, a, b, mouth, motion, work, aim):
-    """The same with steps that follow the wall; see ``slide``."""
-    rod, _, wall, lumen = model
-    held = mouth.held
-    energy, slope, slack = aim
-    share = min(1.0, FARTHEST / longest(work.step, held, a.q.shape[0]))
-    lower, nearest = inf, inf
-    for _ in range(HALVINGS):
-        slide(rod, lumen, wall, a.q, work.step, held, share, work.way)
-        if allowed_part(rod, lumen, wall, a.q, work.way, held, wall.gap) == 1.0:
-            take_step(a, b, held, 1.0, work.way)
+        for turned in range(2):
+            bent = limits.slide or turned == 1
+            if turned == 1 and (limits.slide or share > limits.turn):
+                break
+            if turned == 1:
+                turn_step(a, held, share, work.step, work.way)
+            elif limits.slide:
+                slide(rod, lumen, wall, a.q, work.step, held, share, work.way)
+            if bent and allowed_part(rod, lumen, wall, a.q, work.way, held, leeway) < 1.0:
+                continue
+            take_step(a, b, held, 1.0 if bent else share, work.way if bent else work.step)
             lower, nearest = assemble(model, b, mouth, motion, work.gradient, work.no_band)
             if lower <= energy + ARMIJO * share * slope + slack:
                 return share, lower, nearest
@@ -234,15 +215,19 @@ def newton(model, state, mouth, motion, work, limits):
     copy_state(state, a, held)
     factorisations = 0
     iteration = 0
-    energy, nearest = assemble(model, a, mouth, motion, work.gradient, work.band)
-    size = residual(work.gradient, held)
-    status = CONVERGED if energy < inf else PENETRATING
+    energy, nearest, size = 0.0, inf, inf
+    status = CONVERGED
     while status == CONVERGED and not size <= limits.tolerance:
-        if iteration == limits.iterations:
+        if iteration > 0 and iteration == limits.iterations:
             status = TOO_MANY_ITERATIONS
             break
-        if iteration > 0:
-            assemble(model, a, mouth, motion, work.gradient, work.band)
+        value, near = assemble(model, a, mouth, motion, work.gradient, work.band)
+        if iteration == 0:
+            energy, nearest, size = value, near, residual(work.gradient, held)
+            if not energy < inf:
+                status = PENETRATING
+            if not energy < inf or size <= limits.tolerance:
+                break
         iteration += 1
         count = find_step(model, a, mouth, motion, work, limits)
         factorisations += abs(count)
@@ -254,17 +239,15 @@ def newton(model, state, mouth, motion, work, limits):
             for c in range(4):
                 slope += work.gradient[i, c] * work.step[4 * (i - held + 1) + c]
         aim = energy, slope, ROUND_OFF * (1.0 + abs(energy))
-        if limits.slide:
-            share, lower, nearest = search_along_wall(model, a, b, mouth, motion, work, aim)
-        else:
-            share, lower, nearest = search(model, a, b, mouth, motion, work, aim, limits.turn)
-        status = CONVERGED if share > 0.0 else STALLED
-        if status == CONVERGED:
-            a, b = b, a
-            energy = lower
-            size = residual(work.gradient, held)
-            small = min(limits.step, LAST * nearest)
-            if share == 1.0 and size < inf and longest(work.step, held, a.q.shape[0]) < small:
-                break
+        share, energy, near = search(model, a, b, mouth, motion, work, limits, aim)
+        if share == 0.0:
+            status = STALLED
+            break
+        a, b = b, a
+        nearest = near
+        size = residual(work.gradient, held)
+        small = min(limits.step, LAST * nearest)
+        if share == 1.0 and size < inf and longest(work.step, held, a.q.shape[0]) < small:
+            break
     copy_state(a, state, held)
     return status, iteration, factorisations, size, nearest

@@ -57,8 +57,8 @@ class _Rig:
     @property
     def clearance(self) -> float:
         """Where the wire lies at rest under its weight [m]."""
-        barrier = self.barrier
-        return tube.barrier_clearance(self.weight, barrier.stiffness, barrier.activation_gap)
+        stiffness = self.weight / self.thickness
+        return tube.barrier_clearance(self.weight, stiffness, self.thickness)
 
     def tube_radius(self, x: Array) -> Array:
         """Grows from a tight fit at the entrance, so that the wire need not climb down."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from math import inf
 
-from magwire.kernels._jit import kernel
+from magwire.kernels._jit import kernel, part
 from magwire.kernels.blocks import full, sym_scale
 from magwire.kernels.scatter import add_block, add_diagonal, add_vector
 from magwire.kernels.vectors import combine, norm, row, sub
@@ -35,7 +35,7 @@ def clear_edge(between, q, j, reach):
     return room >= 0.0 and moved <= room * room
 
 
-@kernel
+@part
 def remember(between, q, j, room):
     """Keep how far edge j may move from here on."""
     for c in range(3):
@@ -80,7 +80,7 @@ def press_edge(rod, lumen, wall, state, j, gradient, band, r):
     return nearest, energy
 
 
-@kernel
+@part
 def add_between(rod, lumen, wall, state, held, gradient, band):
     """Barrier energy of the edges past the last held node; see ``press_edge``."""
     energy = 0.0

@@ -6,7 +6,7 @@ The gap is 1-Lipschitz, so a point may move by less than its gap. Repeating that
 
 from __future__ import annotations
 
-from magwire.kernels._jit import kernel
+from magwire.kernels._jit import kernel, part
 from magwire.kernels.vectors import combine, norm, row
 from magwire.kernels.wall.between import clear_edge, margin
 from magwire.kernels.wall.gap import gap_value
@@ -49,7 +49,7 @@ def travel(lumen, x, dx, offset, known, jet, limit):
     return part
 
 
-@kernel
+@part
 def edge_part(rod, lumen, wall, q, step, j, r, limit, leeway):
     """Largest part of a step, at most ``limit``, that the points of edge j may take.
 
@@ -73,7 +73,7 @@ def edge_part(rod, lumen, wall, q, step, j, r, limit, leeway):
 
 
 @kernel
-def allowed_part(rod, lumen, wall, q, step, held, leeway=0.0):
+def allowed_part(rod, lumen, wall, q, step, held, leeway):
     """Largest part of a step (rows of the band's layout) that keeps the wire inside.
 
     leeway: how far into the wall the way may lead, of a step that is known to end inside.
