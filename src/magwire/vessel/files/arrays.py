@@ -13,7 +13,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.lumen.files.drawing import LARGEST_FILE, FileFaultError
+from magwire.vessel.files.drawing import LARGEST_FILE, FileFaultError
 
 TYPES = {
     "Int8": "i1", "UInt8": "u1", "Int16": "i2", "UInt16": "u2", "Int32": "i4", "UInt32": "u4",

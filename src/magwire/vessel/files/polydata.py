@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from magwire.lumen.files.drawing import (
+from magwire.vessel.files.drawing import (
     Array,
     Drawing,
     FileFaultError,

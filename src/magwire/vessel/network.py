@@ -11,7 +11,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 from scipy.spatial import KDTree
 
-from magwire.lumen.files.drawing import Array, FileFaultError, Indices, Line
+from magwire.vessel.files.drawing import Array, FileFaultError, Indices, Line
 
 MERGED = 0.1  # distance at which points of two lines are one, over the radius
 NEIGHBOURS = 4  # points along a line that count as joined already

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from magwire.lumen.files import (
+from magwire.vessel.files import (
     meshes,
     netcdf,
     simvascular,
@@ -23,7 +23,7 @@ from magwire.lumen.files import (
     vtk,
     vtp,
 )
-from magwire.lumen.files.drawing import (
+from magwire.vessel.files.drawing import (
     LARGEST_FILE,
     Drawing,
     FileFaultError,

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from magwire.lumen.vessel.reading import Spot, Vessel
+from magwire.vessel.reading import Spot, Vessel
 
 __all__ = ["Spot", "Vessel"]

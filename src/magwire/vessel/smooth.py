@@ -10,7 +10,7 @@ from scipy.linalg import solveh_banded
 from scipy.sparse import diags_array
 from scipy.spatial import KDTree
 
-from magwire.lumen.files.drawing import Array
+from magwire.vessel.files.drawing import Array
 
 STEP = 0.25  # of the points that come out, over the radius
 PINNED = 1e8  # weight of the first and the last point

@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 
-from magwire.lumen.files.drawing import MOST_POINTS, Array, Drawing, FileFaultError, Line
+from magwire.vessel.files.drawing import MOST_POINTS, Array, Drawing, FileFaultError, Line
 
 ENTRY = re.compile(rb"[ \t]*(\w+)[ \t]*=[ \t]*([^\r\n]*)\r?\n")
 

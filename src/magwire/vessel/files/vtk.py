@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.lumen.files.drawing import MOST_POINTS, Array, Drawing, FileFaultError, Indices
-from magwire.lumen.files.polydata import PolyData, drawn
+from magwire.vessel.files.drawing import MOST_POINTS, Array, Drawing, FileFaultError, Indices
+from magwire.vessel.files.polydata import PolyData, drawn
 
 TYPES = {
     "char": "i1", "unsigned_char": "u1", "short": "i2", "unsigned_short": "u2", "int": "i4",

@@ -11,8 +11,8 @@ import pytest
 import corrupted_files
 from magwire.errors import InputError
 from magwire.lumen import Lumen
-from magwire.lumen.files import load
-from magwire.lumen.vessel import Vessel
+from magwire.vessel import Vessel
+from magwire.vessel.files import load
 from vessel_files import CENTRELINES, EVERY, SINGLE, SURFACES, fork, vtp
 
 LENGTHS = [float(np.linalg.norm(np.diff(p, axis=0), axis=1).sum()) for p, _ in fork()]

@@ -7,8 +7,8 @@ import tomllib
 import numpy as np
 
 from magwire.errors import InputError
-from magwire.lumen.files.drawing import Drawing, FileFaultError, Line
 from magwire.units import parse
+from magwire.vessel.files.drawing import Drawing, FileFaultError, Line
 
 ENTRANCE = "entrance"
 

@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
 from magwire.errors import InputError, array, one_of
-from magwire.lumen.files import Drawing
-from magwire.lumen.files.drawing import Array
 from magwire.units import DIMENSIONS
+from magwire.vessel.files import Drawing
+from magwire.vessel.files.drawing import Array
 
 OWNER = "Lumen.read"
 

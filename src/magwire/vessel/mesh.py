@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from magwire.lumen.files.drawing import Array, FileFaultError, Indices, Surface, chains
+from magwire.vessel.files.drawing import Array, FileFaultError, Indices, Surface, chains
 
 WELD = 1e-6  # distance at which corners are one, over the size of the surface
 DEBRIS = 0.05  # area of a piece that is left out without asking, over the area of all

@@ -9,7 +9,7 @@ import warnings
 import numpy as np
 
 from magwire.errors import MagwireError
-from magwire.lumen.files.drawing import Drawing, FileFaultError, Surface
+from magwire.vessel.files.drawing import Drawing, FileFaultError, Surface
 
 
 class MissingLibraryError(MagwireError):

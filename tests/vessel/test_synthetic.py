@@ -9,7 +9,7 @@ import pytest
 
 from magwire.errors import InputError
 from magwire.lumen import Lumen
-from magwire.lumen.synthetic import aortic_arch, carotid_bifurcation, coronary_tree, tortuous
+from magwire.vessel.synthetic import aortic_arch, carotid_bifurcation, coronary_tree, tortuous
 
 
 def test_the_arch_is_entered_from_below_and_turns_back() -> None:

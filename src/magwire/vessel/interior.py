@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.spatial import KDTree
 
-from magwire.lumen.files.drawing import Array, FileFaultError, Indices
+from magwire.vessel.files.drawing import Array, FileFaultError, Indices
 
 VOXELS = 3_000_000  # of the box around the surface, at most
 CROSSINGS = 20_000_000  # columns that are tried for all triangles, at most

@@ -10,10 +10,10 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from magwire.lumen.branch import Bend, Branch
-from magwire.lumen.files import Drawing
-from magwire.lumen.files.drawing import Array
-from magwire.lumen.vessel.placement import Placement
-from magwire.lumen.vessel.reading import Vessel
+from magwire.vessel.files import Drawing
+from magwire.vessel.files.drawing import Array
+from magwire.vessel.placement import Placement
+from magwire.vessel.reading import Vessel
 
 FLIPS = {
     "x and y": (-1.0, -1.0, 1.0),

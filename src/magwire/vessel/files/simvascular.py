@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from magwire.lumen.files.drawing import Drawing, FileFaultError, Line
+from magwire.vessel.files.drawing import Drawing, FileFaultError, Line
 
 DECLARATION = re.compile(rb"<\?xml[^>]*\?>")
 

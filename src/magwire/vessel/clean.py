@@ -8,7 +8,7 @@ import numpy as np
 from scipy.interpolate import Akima1DInterpolator
 from scipy.ndimage import median_filter
 
-from magwire.lumen.files.drawing import Array, FileFaultError, Line
+from magwire.vessel.files.drawing import Array, FileFaultError, Line
 
 REPEATED = 1e-7  # smallest distance of neighbouring points, over the length of the line
 WINDOW = 5  # points whose median a spike stands out from

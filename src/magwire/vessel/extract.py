@@ -9,10 +9,10 @@ import numpy as np
 from scipy.sparse.csgraph import connected_components, dijkstra
 from scipy.spatial import KDTree
 
-from magwire.lumen.files.drawing import Array, FileFaultError, Indices, Line, Surface
-from magwire.lumen.vessel import vmtk
-from magwire.lumen.vessel.interior import Interior, fill, to_wall, wall_samples
-from magwire.lumen.vessel.mesh import End, Shell, shell
+from magwire.vessel import vmtk
+from magwire.vessel.files.drawing import Array, FileFaultError, Indices, Line, Surface
+from magwire.vessel.interior import Interior, fill, to_wall, wall_samples
+from magwire.vessel.mesh import End, Shell, shell
 
 FINENESS = 0.25  # edge length of a voxel, over the radius of the narrowest end
 SPACING = 0.25  # of the points of the wall, over that radius

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from magwire.lumen.files.drawing import Array, Drawing, FileFaultError, Line
+from magwire.vessel.files.drawing import Array, Drawing, FileFaultError, Line
 
 FLIP = {"LPS": 1.0, "1": 1.0, "RAS": -1.0, "0": -1.0}
 """Sign of x and y: what is read is in LPS, as in DICOM."""

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from scipy.io import netcdf_file
 
-from magwire.lumen.files.drawing import Drawing, FileFaultError, Line
+from magwire.vessel.files.drawing import Drawing, FileFaultError, Line
 
 
 def read(data: bytes, radius: str | None) -> Drawing:

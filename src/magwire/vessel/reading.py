@@ -12,13 +12,13 @@ from numpy.typing import ArrayLike
 
 from magwire.errors import array, nonnegative, one_of, positive, refuse
 from magwire.lumen.branch import Branch
-from magwire.lumen.files import Drawing, Line, load
-from magwire.lumen.files.drawing import Array, FileFaultError, Indices
-from magwire.lumen.files.drawing import refuse as refuse_file
-from magwire.lumen.vessel.clean import clean
-from magwire.lumen.vessel.network import Network
-from magwire.lumen.vessel.placement import OWNER, Placement, unit_factor
-from magwire.lumen.vessel.smooth import smooth
+from magwire.vessel.clean import clean
+from magwire.vessel.files import Drawing, Line, load
+from magwire.vessel.files.drawing import Array, FileFaultError, Indices
+from magwire.vessel.files.drawing import refuse as refuse_file
+from magwire.vessel.network import Network
+from magwire.vessel.placement import OWNER, Placement, unit_factor
+from magwire.vessel.smooth import smooth
 
 SPUR = 1.5  # shortest branch that counts, over the radius where it leaves
 SAME = 0.1  # how much closer to a point a tube has to be to be the one that is meant, in radii
@@ -239,7 +239,7 @@ def _extracted(drawing: Drawing) -> tuple[Drawing, tuple[str, ...]]:
     """The drawing with the centrelines of its surface, if it has no lines, and what was done."""
     if drawing.lines or drawing.surface is None:
         return drawing, ()
-    from magwire.lumen.vessel.extract import extract
+    from magwire.vessel.extract import extract
 
     found = extract(drawing.surface)
     return drawing._replace(lines=found.lines), found.notes

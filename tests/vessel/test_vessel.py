@@ -9,9 +9,9 @@ import pytest
 
 from magwire.errors import InputError
 from magwire.lumen import Lumen
-from magwire.lumen.vessel import Vessel, survey
-from magwire.lumen.vessel.placement import Placement
-from magwire.lumen.vessel.smooth import smooth
+from magwire.vessel import Vessel, survey
+from magwire.vessel.placement import Placement
+from magwire.vessel.smooth import smooth
 from vessel_files import Lines, fork, pieces, table, vtp
 
 S = np.arange(0.0, 100.5, 0.5)
@@ -185,7 +185,7 @@ def test_survey(tmp_path: Path) -> None:
 
 
 def test_flipped_axes_are_found(tmp_path: Path) -> None:
-    from magwire.lumen.files import load
+    from magwire.vessel.files import load
 
     lines = [(p + [30.0, 70.0, -20.0], r) for p, r in fork()]
     vessel = read(tmp_path, lines)

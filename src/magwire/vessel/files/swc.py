@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from magwire.lumen.files.drawing import Drawing, FileFaultError, Line, chains
+from magwire.vessel.files.drawing import Drawing, FileFaultError, Line, chains
 
 
 def read(data: bytes, radius: str | None) -> Drawing:

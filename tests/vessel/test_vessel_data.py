@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from scipy.spatial import KDTree
 
-from magwire.lumen.files import load
-from magwire.lumen.vessel import Vessel, vmtk
-from magwire.lumen.vessel.extract import extract
-from magwire.lumen.vessel.placement import guessed_unit
+from magwire.vessel import Vessel, vmtk
+from magwire.vessel.extract import extract
+from magwire.vessel.files import load
+from magwire.vessel.placement import guessed_unit
 
 FOLDER = Path(os.environ.get("MAGWIRE_VESSELS", ""))
 FILES = {

@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from magwire.lumen.files.drawing import Array, Line
-from magwire.lumen.vessel.mesh import End, Shell
+from magwire.vessel.files.drawing import Array, Line
+from magwire.vessel.mesh import End, Shell
 
 EDGE = 0.25  # mean edge of the triangles, over the radius of the narrowest end, at most
 MOVED = 1e-4  # standard deviation of what points are moved by, over that edge

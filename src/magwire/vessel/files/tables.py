@@ -7,8 +7,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from magwire.lumen.files.drawing import Drawing, FileFaultError, Line, pick_radius
 from magwire.units import DIMENSIONS
+from magwire.vessel.files.drawing import Drawing, FileFaultError, Line, pick_radius
 
 Splitter = Callable[[str], list[str]]
 AXES = ("x", "y", "z")

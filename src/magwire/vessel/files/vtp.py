@@ -13,9 +13,9 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.lumen.files.arrays import Encoding
-from magwire.lumen.files.drawing import Array, Drawing, FileFaultError, Indices, Line
-from magwire.lumen.files.polydata import MARK, PolyData, drawn
+from magwire.vessel.files.arrays import Encoding
+from magwire.vessel.files.drawing import Array, Drawing, FileFaultError, Indices, Line
+from magwire.vessel.files.polydata import MARK, PolyData, drawn
 
 APPENDED = re.compile(rb'<AppendedData\b[^>]*?encoding\s*=\s*"(\w+)"[^>]*>\s*_')
 
