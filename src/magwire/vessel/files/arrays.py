@@ -13,13 +13,14 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.vessel.files import lz4
 from magwire.vessel.files.drawing import LARGEST_FILE, FileFaultError
 
 TYPES = {
     "Int8": "i1", "UInt8": "u1", "Int16": "i2", "UInt16": "u2", "Int32": "i4", "UInt32": "u4",
-    "Int64": "i8", "UInt64": "u8", "Float32": "f4", "Float64": "f8",
+    "Int64": "i8", "UInt64": "u8", "Float32": "f4", "Float64": "f8", "String": "u1",
 }  # fmt: skip
-COMPRESSORS = ("", "vtkZLibDataCompressor", "vtkLZMADataCompressor")
+COMPRESSORS = ("", "vtkZLibDataCompressor", "vtkLZMADataCompressor", "vtkLZ4DataCompressor")
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,9 @@ class Encoding:
         """What the file's first element says."""
         compressor = root.get("compressor", "")
         if compressor not in COMPRESSORS:
-            raise FileFaultError(f"is compressed by {compressor!r}; expected zlib, LZMA or none")
+            raise FileFaultError(
+                f"is compressed by {compressor!r}; expected zlib, LZMA, LZ4 or none"
+            )
         order = ">" if root.get("byte_order") == "BigEndian" else "<"
         header = order + ("u8" if root.get("header_type") == "UInt64" else "u4")
         return cls(order, header, compressor, appended, raw)
@@ -110,6 +113,8 @@ class Encoding:
     def _expand(self, packed: bytes, largest: int) -> bytes:
         if self.compressor == "vtkZLibDataCompressor":
             return zlib.decompressobj().decompress(packed, max(largest, 1))
+        if self.compressor == "vtkLZ4DataCompressor":
+            return lz4.expand(packed, largest)
         return lzma.LZMADecompressor(memlimit=LARGEST_FILE).decompress(packed, max(largest, 1))
 
     @property

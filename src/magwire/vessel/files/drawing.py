@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from magwire.errors import InputError
+from magwire.units import DIMENSIONS
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -15,6 +17,7 @@ Indices = NDArray[np.int64]
 LARGEST_FILE = 256_000_000
 """Bytes of a file, or of one of its arrays when unpacked, at most."""
 MOST_POINTS = 4_000_000
+UNIT = re.compile(r"\s*[\[(]\s*(\w+)\s*[\])]\s*$")
 RADII = ("maximuminscribedsphereradius", "radius", "radii", "r")
 """Names of arrays that hold the radius, the first one found counts; case does not matter."""
 
@@ -64,6 +67,10 @@ class Drawing(NamedTuple):
     entrance
         Name of the end at which all lines start, in a file that magwire has made: its lines are
         smooth tubes already. Empty in all others.
+    radius_unit
+        Unit of the radius, if the file states one for it; that of the points if it does not.
+    notes
+        What was done to what the file holds, a sentence each.
     """
 
     lines: tuple[Line, ...] = ()
@@ -71,6 +78,8 @@ class Drawing(NamedTuple):
     unit: str | None = None
     arrays: tuple[str, ...] = ()
     entrance: str = ""
+    radius_unit: str | None = None
+    notes: tuple[str, ...] = ()
 
 
 def pick_radius(names: tuple[str, ...], wanted: str | None) -> str | None:
@@ -81,7 +90,8 @@ def pick_radius(names: tuple[str, ...], wanted: str | None) -> str | None:
     names
         Arrays with one number for each point.
     wanted
-        The name that was asked for; any of ``RADII`` if left out.
+        The name that was asked for, with or without the unit behind it; if left out any of
+        ``RADII``, or the only one in whose name there is a radius.
 
     Raises
     ------
@@ -89,12 +99,43 @@ def pick_radius(names: tuple[str, ...], wanted: str | None) -> str | None:
         If there is no array of the name that was asked for.
     """
     if wanted is not None:
+        bare = {plain_name(name): name for name in reversed(names)}
+        wanted = wanted if wanted in names else bare.get(plain_name(wanted), wanted)
         if wanted not in names:
             there = ", ".join(repr(name) for name in names) or "no array"
             raise FileFaultError(f"has no array {wanted!r} at its points, but {there}")
         return wanted
-    by_case = {name.lower(): name for name in reversed(names)}
-    return next((by_case[known] for known in RADII if known in by_case), None)
+    by_case = {plain_name(name).lower(): name for name in reversed(names)}
+    usual = next((by_case[known] for known in RADII if known in by_case), None)
+    named = [name for name in names if "radius" in name.lower()]
+    return usual or (named[0] if len(named) == 1 else None)
+
+
+def plain_name(name: str) -> str:
+    """The name of an array without the unit behind it."""
+    return UNIT.sub("", name)
+
+
+def unit_of(name: str | None) -> str | None:
+    """The unit of length behind the name of an array, as in "Radius [mm]"; None without one."""
+    found = UNIT.search(name or "")
+    return found[1] if found and found[1] in DIMENSIONS["length"].units else None
+
+
+def right_handed(points: Array, space: str) -> tuple[Array, tuple[str, ...]]:
+    """Points in LPS, as DICOM has them, from a file in a given space, and what was done.
+
+    Parameters
+    ----------
+    points
+        Shape (n, 3).
+    space
+        "RAS" or "LPS"; empty if the file does not say, and points stay as they are.
+    """
+    if space.upper() != "RAS":
+        return points, ()
+    turned = points * np.array([-1.0, -1.0, 1.0])
+    return turned, ("The file is in RAS coordinates: x and y are turned round, to LPS.",)
 
 
 def chains(edges: ArrayLike, count: int) -> list[Indices]:

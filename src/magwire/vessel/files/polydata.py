@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from magwire.vessel.files.drawing import (
     Array,
@@ -15,8 +16,12 @@ from magwire.vessel.files.drawing import (
     Surface,
     chains,
     pick_radius,
+    right_handed,
+    unit_of,
 )
 
+SPACE = "SPACE"
+"""Field array with which 3D Slicer says in which space the points of a model are."""
 MARK = "magwire-ends"
 """Field array with the names of the entrance and of the lines' ends, in a file of magwire's."""
 
@@ -32,22 +37,25 @@ class PolyData(NamedTuple):
         Numbers at the points by name, shape (n,) each.
     lines, polygons
         Point indices of each cell.
+    fields
+        Texts of the data set by the name of their array.
     """
 
     points: Array
     arrays: dict[str, Array]
     lines: list[Indices]
     polygons: list[Indices]
+    fields: dict[str, tuple[str, ...]]
 
     @classmethod
     def empty(cls) -> PolyData:
         """No points at all."""
-        return cls(np.zeros((0, 3)), {}, [], [])
+        return cls(np.zeros((0, 3)), {}, [], [], {})
 
     def joined(self, other: PolyData) -> PolyData:
         """The data set with another one behind it."""
         if len(self.points) == 0:
-            return other
+            return other._replace(fields={**other.fields, **self.fields})
         shift = len(self.points)
         shared = [name for name in self.arrays if name in other.arrays]
         return PolyData(
@@ -55,10 +63,20 @@ class PolyData(NamedTuple):
             {name: np.concatenate([self.arrays[name], other.arrays[name]]) for name in shared},
             [*self.lines, *(cell + shift for cell in other.lines)],
             [*self.polygons, *(cell + shift for cell in other.polygons)],
+            {**other.fields, **self.fields},
         )
 
 
-def drawn(poly: PolyData, radius: str | None, ends: tuple[str, ...] = ()) -> Drawing:
+def texts(name: str, values: NDArray[Any]) -> tuple[str, ...]:
+    """The texts in an array of their bytes, each with a zero behind it."""
+    try:
+        whole = bytes(int(code) % 256 for code in values.ravel().tolist()).decode()
+    except (ValueError, OverflowError):
+        raise FileFaultError(f"has an array {name!r} that cannot be decoded") from None
+    return tuple(text for text in whole.split("\0") if text)
+
+
+def drawn(poly: PolyData, radius: str | None) -> Drawing:
     """The lines of a data set or, if it has none, its surface.
 
     Parameters
@@ -67,9 +85,10 @@ def drawn(poly: PolyData, radius: str | None, ends: tuple[str, ...] = ()) -> Dra
         The data set.
     radius
         Name of the array that holds the radius; one of the usual names if left out.
-    ends
-        Names of the entrance and of the lines' ends, in a file that magwire has made.
     """
+    ends, space = poly.fields.get(MARK, ()), poly.fields.get(SPACE, ("",))[0]
+    places, turned = right_handed(poly.points, space)
+    poly = poly._replace(points=places)
     for cell in (*poly.lines, *poly.polygons):
         if cell.size and (cell.min() < 0 or cell.max() >= len(poly.points)):
             raise FileFaultError(
@@ -82,7 +101,7 @@ def drawn(poly: PolyData, radius: str | None, ends: tuple[str, ...] = ()) -> Dra
         corners = np.concatenate(triangles) if triangles else np.zeros((0, 3), dtype=np.int64)
         used, indices = np.unique(corners, return_inverse=True)
         surface = Surface(poly.points[used], indices.reshape(-1, 3).astype(np.int64))
-        return Drawing(surface=surface if triangles else None, arrays=names)
+        return Drawing(surface=surface if triangles else None, arrays=names, notes=turned)
     if all(cell.size == 2 for cell in lines) and len(lines) > 1:
         lines = chains(np.array(lines), len(poly.points))
     name = pick_radius(names, radius)
@@ -97,6 +116,8 @@ def drawn(poly: PolyData, radius: str | None, ends: tuple[str, ...] = ()) -> Dra
         arrays=names,
         unit="mm" if made else None,
         entrance=ends[0] if made else "",
+        radius_unit=unit_of(name),
+        notes=turned,
     )
 
 

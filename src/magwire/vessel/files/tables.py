@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,7 +15,16 @@ Splitter = Callable[[str], list[str]]
 AXES = ("x", "y", "z")
 GROUPS = ("line", "branch", "vessel", "centerlineids", "centerlineid", "groupids", "name")
 """Names of columns that say which line a point belongs to."""
+PARAVIEW = {f"points{mark}{k}": axis for mark in ":_" for k, axis in enumerate(AXES)}
 HEAD = re.compile(r'^\s*"?\s*([^\[(]+?)\s*(?:[\[(]\s*(\w+)\s*[\])])?\s*"?\s*$')
+
+
+class Heads(NamedTuple):
+    """Names of the columns, the unit of the points, and those of other columns, where stated."""
+
+    names: list[str]
+    unit: str | None
+    others: dict[str, str]
 
 
 def read(data: bytes, radius: str | None) -> Drawing:
@@ -36,18 +46,18 @@ def read(data: bytes, radius: str | None) -> Drawing:
     if not rows:
         raise FileFaultError("is empty")
     split = _splitter(rows[0])
-    heads, unit = _heads(split(rows[0]))
-    if heads:
+    heads = _heads(split(rows[0]))
+    if heads.names:
         rows = rows[1:]
     else:
-        heads = [*AXES, "radius"][: len(split(rows[0]))]
-    columns = _columns(heads, rows, split)
+        heads = Heads([*AXES, "radius"][: len(split(rows[0]))], None, {})
+    columns = _columns(heads.names, rows, split)
     missing = [axis for axis in AXES if axis not in columns]
     if missing:
         raise FileFaultError(
-            f"lacks the column {' and '.join(missing)} among {', '.join(heads)[:200]}"
+            f"lacks the column {' and '.join(missing)} among {', '.join(heads.names)[:200]}"
         )
-    return _drawing(columns, radius, unit)
+    return _drawing(columns, radius, heads)
 
 
 def _splitter(row: str) -> Splitter:
@@ -57,24 +67,29 @@ def _splitter(row: str) -> Splitter:
     return str.split
 
 
-def _heads(words: list[str]) -> tuple[list[str], str | None]:
-    """Names of the columns, and the unit that they state; no names if these are numbers."""
+def _heads(words: list[str]) -> Heads:
+    """What the first row says; no names if it is of numbers."""
     try:
         [float(word) for word in words]
     except ValueError:
         pass
     else:
-        return [], None
-    names, units = [], set()
+        return Heads([], None, {})
+    names, units, others = [], set(), {}
     for word in words:
         match = HEAD.match(word)
         name, unit = (match[1], match[2]) if match else (word, None)
         low = name.strip('" ').lower()
-        axis = {"points:0": "x", "points:1": "y", "points:2": "z"}.get(low, low)
+        axis = PARAVIEW.get(low, low)
         names.append(axis if axis in AXES else name.strip('" '))
-        if axis in AXES and unit in DIMENSIONS["length"].units:
-            units.add(unit)
-    return names, units.pop() if len(units) == 1 else None
+        if unit in DIMENSIONS["length"].units:
+            if axis in AXES:
+                units.add(unit)
+            else:
+                others[names[-1]] = str(unit)
+    if len(units) > 1:
+        raise FileFaultError(f"has points in {' and '.join(sorted(units))}; expected one unit")
+    return Heads(names, units.pop() if units else None, others)
 
 
 def _columns(heads: list[str], rows: list[str], split: Splitter) -> dict[str, list[str]]:
@@ -99,14 +114,15 @@ def _numbers(name: str, texts: list[str]) -> np.ndarray[tuple[int], np.dtype[np.
         raise FileFaultError(f"has a column {name} that is not of numbers") from None
 
 
-def _drawing(columns: dict[str, list[str]], radius: str | None, unit: str | None) -> Drawing:
+def _drawing(columns: dict[str, list[str]], radius: str | None, heads: Heads) -> Drawing:
     points = np.column_stack([_numbers(axis, columns[axis]) for axis in AXES])
     others = tuple(name for name in columns if name not in AXES)
     name = pick_radius(others, radius)
     values = np.full(len(points), np.nan) if name is None else _numbers(name, columns[name])
+    units = {"unit": heads.unit, "radius_unit": heads.others.get(name or "")}
     group = next((head for head in others if head.lower() in GROUPS and head != name), None)
     if group is None:
-        return Drawing((Line("", points, values),), unit=unit, arrays=others)
+        return Drawing((Line("", points, values),), arrays=others, **units)
     labels = np.array(columns[group])
     named = group.lower() in ("branch", "vessel", "name", "line")
     order = list(dict.fromkeys(columns[group]))
@@ -114,4 +130,5 @@ def _drawing(columns: dict[str, list[str]], radius: str | None, unit: str | None
         Line(label if named else "", points[labels == label], values[labels == label])
         for label in order
     )
-    return Drawing(tuple(line for line in lines if len(line.points) > 1), unit=unit, arrays=others)
+    kept = tuple(line for line in lines if len(line.points) > 1)
+    return Drawing(kept, arrays=others, **units)

@@ -8,6 +8,9 @@ import numpy as np
 
 from magwire.vessel.files.drawing import MOST_POINTS, Array, Drawing, FileFaultError, Line
 
+WIDTHS = {"MET_FLOAT": 4, "MET_DOUBLE": 8}
+"""Bytes of a number in binary data, by its type."""
+RADII = ("r", "R", "radius", "Radius", "rad", "Rad", "s", "S")
 ENTRY = re.compile(rb"[ \t]*(\w+)[ \t]*=[ \t]*([^\r\n]*)\r?\n")
 
 
@@ -48,14 +51,16 @@ def _points(data: bytes, place: int, head: dict[str, str]) -> tuple[Array, int]:
         raise ValueError
     if head.get("BinaryData", "False").lower() == "true":
         order = ">" if head.get("BinaryDataByteOrderMSB", "False").lower() == "true" else "<"
-        size = 4 * count * columns
+        width = _width(data, place, count * columns, head.get("ElementType", ""))
+        size = width * count * columns
         if place + size > len(data):
             raise ValueError
-        numbers = np.frombuffer(data[place : place + size], dtype=order + "f4")
-        place += size
-        while data[place : place + 1] in (b"\n", b"\r"):
-            place += 1
-        return numbers.astype(np.float64).reshape(count, columns), place
+        numbers = np.frombuffer(data[place : place + size], dtype=f"{order}f{width}")
+        following = data.find(b"ObjectType", place + size)
+        return (
+            numbers.astype(np.float64).reshape(count, columns),
+            len(data) if following < 0 else following,
+        )
     rows = []
     for _ in range(count):
         end = data.find(b"\n", place)
@@ -67,6 +72,20 @@ def _points(data: bytes, place: int, head: dict[str, str]) -> tuple[Array, int]:
     return np.array(rows, dtype=np.float64).reshape(count, -1)[:, :columns], place
 
 
+def _width(data: bytes, place: int, count: int, stated: str) -> int:
+    """Bytes of a number: 4, or 8 where the file says so or the next object begins only there.
+
+    MetaIO writes numbers of its element type, but not always which that is.
+    """
+    if stated in WIDTHS:
+        return WIDTHS[stated]
+    for width in WIDTHS.values():
+        rest = data[place + width * count :].lstrip(b"\r\n")
+        if place + width * count <= len(data) and (not rest or rest.startswith(b"ObjectType")):
+            return width
+    return WIDTHS["MET_FLOAT"]
+
+
 def _columns(head: dict[str, str]) -> list[str]:
     columns = head.get("PointDim", "x y z r").split()
     if not {"x", "y", "z"} <= set(columns):
@@ -75,16 +94,28 @@ def _columns(head: dict[str, str]) -> list[str]:
 
 
 def _line(points: Array, head: dict[str, str]) -> Line:
-    """A tube where it is: points are stretched by the spacing and moved by the offset."""
+    """A tube where it is: stretched by the spacing, turned by the matrix, moved by the offset.
+
+    So does ITK 5.4; the offset holds the centre of rotation already. Of a matrix that stretches,
+    the radius takes the mean.
+    """
     columns = _columns(head)
-    try:
-        spacing = np.array(head.get("ElementSpacing", "1 1 1").split(), dtype=np.float64)
-        offset = np.array(head.get("Offset", "0 0 0").split(), dtype=np.float64)
-    except ValueError:
-        raise FileFaultError("has a tube whose spacing or offset is not of numbers") from None
-    if spacing.shape != (3,) or offset.shape != (3,):
-        raise FileFaultError("has a tube whose spacing or offset has not three numbers")
-    places = points[:, [columns.index(axis) for axis in "xyz"]] * spacing + offset
-    wide = next((columns.index(name) for name in ("r", "R") if name in columns), None)
-    radius = np.full(len(points), np.nan) if wide is None else points[:, wide] * spacing[0]
+    spacing, offset = _numbers(head, "ElementSpacing", "1 1 1"), _numbers(head, "Offset", "0 0 0")
+    turn = _numbers(head, "TransformMatrix", "1 0 0 0 1 0 0 0 1").reshape(3, 3)
+    stretch = spacing[0] * abs(float(np.linalg.det(turn))) ** (1.0 / 3.0)
+    places = points[:, [columns.index(axis) for axis in "xyz"]] * spacing @ turn.T + offset
+    wide = next((columns.index(name) for name in RADII if name in columns), None)
+    radius = np.full(len(points), np.nan) if wide is None else points[:, wide] * stretch
     return Line(head.get("Name", ""), places, radius)
+
+
+def _numbers(head: dict[str, str], key: str, usual: str) -> Array:
+    """The numbers of an entry, as many as it usually has."""
+    words = head.get(key, usual).split()
+    try:
+        values = np.array(words, dtype=np.float64)
+    except ValueError:
+        raise FileFaultError(f"has a tube whose {key} is not of numbers") from None
+    if len(words) != len(usual.split()):
+        raise FileFaultError(f"has a tube whose {key} has not {len(usual.split())} numbers")
+    return values

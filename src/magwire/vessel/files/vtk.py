@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from itertools import pairwise
 from typing import Any
+from urllib.parse import unquote
 
 import numpy as np
 from numpy.typing import NDArray
 
 from magwire.vessel.files.drawing import MOST_POINTS, Array, Drawing, FileFaultError, Indices
-from magwire.vessel.files.polydata import PolyData, drawn
+from magwire.vessel.files.polydata import MARK, PolyData, drawn, texts
 
 TYPES = {
     "char": "i1", "unsigned_char": "u1", "short": "i2", "unsigned_short": "u2", "int": "i4",
@@ -105,13 +106,14 @@ class _Contents:
         self.points: Array = np.zeros((0, 3))
         self.cells: dict[str, list[Indices]] = {"lines": [], "polygons": []}
         self.arrays: dict[str, Array] = {}
+        self.fields: dict[str, tuple[str, ...]] = {}
         self.at_points, self.count = False, 0
 
     def all(self) -> PolyData:
         """Read to the end."""
         while words := self.source.words():
             self._section(words[0].upper(), words)
-        return PolyData(self.points, self.arrays, self.cells["lines"], self.cells["polygons"])
+        return PolyData(self.points, self.arrays, *self.cells.values(), self.fields)
 
     def _section(self, key: str, words: list[str]) -> None:
         source = self.source
@@ -139,7 +141,8 @@ class _Contents:
             table = source.words()  # LOOKUP_TABLE default
             if table[0].upper() != "LOOKUP_TABLE":
                 raise ValueError
-            self._keep(words[1], components, source.numbers(self.count * components, words[2]))
+            values = source.numbers(self.count * components, words[2])
+            self._keep(unquote(words[1]), components, values)
         elif key in COMPONENTS:
             source.numbers(self.count * COMPONENTS[key], words[2])
         elif key == "TEXTURE_COORDINATES":
@@ -157,11 +160,15 @@ class _Contents:
                 self._skip()
                 continue
             components, rows = int(words[1]), int(words[2])
+            name = unquote(words[0])
             if words[3] == "string":
-                for _ in range(min(rows, MOST_POINTS)):
-                    self.source.line()
+                lines = [self.source.line() for _ in range(min(rows, MOST_POINTS))]
+                self.fields[name] = tuple(unquote(line.strip()) for line in lines)
             else:
-                self._keep(words[0], components, self.source.numbers(components * rows, words[3]))
+                values = self.source.numbers(components * rows, words[3])
+                if name == MARK:
+                    self.fields[name] = texts(name, values)
+                self._keep(name, components, values)
             done += 1
 
     def _skip(self) -> None:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from magwire.vessel.files.arrays import Encoding
 from magwire.vessel.files.drawing import Array, Drawing, FileFaultError, Indices, Line
-from magwire.vessel.files.polydata import MARK, PolyData, drawn
+from magwire.vessel.files.polydata import MARK, SPACE, PolyData, drawn, texts
 
 APPENDED = re.compile(rb'<AppendedData\b[^>]*?encoding\s*=\s*"(\w+)"[^>]*>\s*_')
 
@@ -65,10 +65,10 @@ def read(data: bytes, radius: str | None) -> Drawing:
     root, encoding = _parse(data)
     if root.get("type") != "PolyData" or root.find("PolyData") is None:
         raise FileFaultError(f"is a VTK file of type {root.get('type')!r}; expected 'PolyData'")
-    poly = PolyData.empty()
+    poly = PolyData.empty()._replace(fields=_fields(root, encoding))
     for piece in root.iterfind("PolyData/Piece"):
         poly = poly.joined(_piece(piece, encoding))
-    return drawn(poly, radius, _ends(root))
+    return drawn(poly, radius)
 
 
 def write(path: Path, lines: Sequence[Line], ends: Sequence[str]) -> None:
@@ -102,16 +102,14 @@ def _numbers(values: NDArray[Any]) -> str:
     return " ".join(map(repr, values.tolist()))
 
 
-def _ends(root: Element) -> tuple[str, ...]:
-    """Names of the entrance and of the lines' ends; none but in a file of magwire's."""
-    for array in root.iterfind("PolyData/FieldData/DataArray"):
-        if array.get("Name") == MARK:
-            try:
-                codes = bytes(int(code) for code in (array.text or "").split())
-                return tuple(name for name in codes.decode().split("\0") if name)
-            except ValueError:
-                raise FileFaultError(f"has an array {MARK!r} that cannot be decoded") from None
-    return ()
+def _fields(root: Element, encoding: Encoding) -> dict[str, tuple[str, ...]]:
+    """Texts of the whole file, of those that mean something here."""
+    found = {}
+    for array in (*root.iterfind("PolyData/FieldData/*"), *root.iterfind("FieldData/*")):
+        name = array.get("Name", "")
+        if name in (MARK, SPACE):
+            found[name] = texts(name, encoding.read(array))
+    return found
 
 
 def _parse(data: bytes) -> tuple[Element, Encoding]:
@@ -146,7 +144,7 @@ def _piece(piece: Element, encoding: Encoding) -> PolyData:
                 arrays[element.get("Name", "")] = values
     lines = _cells(piece.find("Lines"), encoding)
     polygons = _cells(piece.find("Polys"), encoding)
-    return PolyData(places, arrays, lines, polygons)
+    return PolyData(places, arrays, lines, polygons, {})
 
 
 def _cells(element: Element | None, encoding: Encoding) -> list[Indices]:
