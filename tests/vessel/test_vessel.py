@@ -93,9 +93,18 @@ def test_orientation_and_entrance(tmp_path: Path) -> None:
         assert np.allclose(tube.entrance, vessel.ends["end-3"])
 
 
-def test_a_way_that_turns_back_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"bends so sharply near .* on the way to 'end-3'"):
-        read(tmp_path, fork(), entrance="end-2")
+def test_a_way_that_turns_back_is_left_out_and_moves_no_other(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"has no open end to go to: the way to 'end-2' is left"):
+        read(tmp_path, [hairpin()])
+    there, back = read(tmp_path, fork()), read(tmp_path, fork(), entrance="end-2")
+    for vessel in (there, back):
+        assert vessel.deviation is not None
+        assert vessel.deviation.outside.radii[2] < 0.1
+    # far from the fork, which the way back rounds more gently, trunk and branch are what they were
+    trunk = there.tubes["end-2"].centreline()[0]
+    other = back.lumen().path("end-1")
+    at = np.linalg.norm(trunk - [30e-3, 0, 3e-3], axis=1)
+    assert other.offset(trunk[at > 15e-3][5:-5]).max() < 0.02e-3
 
 
 def test_an_entrance_inside_cuts_off_what_is_behind(tmp_path: Path) -> None:
@@ -139,7 +148,9 @@ def test_placement(tmp_path: Path) -> None:
 def test_pieces_that_do_not_touch_are_refused(tmp_path: Path) -> None:
     far = pieces()
     far[1] = (far[1][0] + [0.0, 30.0, 0.0], far[1][1])
-    with pytest.raises(InputError, match=r"is in 2 disconnected pieces; the closest ones are 0\.0"):
+    with pytest.raises(
+        InputError, match=r"in 2 disconnected pieces; the closest ones are 30 mm apart"
+    ):
         read(tmp_path, far)
 
 
@@ -147,15 +158,85 @@ def test_small_gaps_are_bridged_and_noted(tmp_path: Path) -> None:
     apart = pieces()
     apart[0] = (apart[0][0][:-6], apart[0][1][:-6])
     vessel = read(tmp_path, apart)
-    assert any("gap of 0.003" in note and "is bridged" in note for note in vessel.notes)
+    assert any("gap of 3" in note and "is bridged" in note for note in vessel.notes)
     assert len(vessel.tubes) == 2
 
 
-def test_loops_are_refused(tmp_path: Path) -> None:
+def ring() -> Lines:
+    """A straight tube, and half a circle that leaves it and comes back."""
     w = np.linspace(0.0, np.pi, 120)
     aside = np.column_stack([40 - 20 * np.cos(w), 20 * np.sin(w), 0 * w])
-    with pytest.raises(InputError, match="has a loop of length"):
-        read(tmp_path, [straight(), (aside, np.full(120, 1.5))])
+    return [straight(), (aside, np.full(120, 1.5))]
+
+
+def test_loops_are_opened_where_they_are_farthest(tmp_path: Path) -> None:
+    vessel = read(tmp_path, ring())
+    (note,) = [note for note in vessel.notes if "loop" in note]
+    # sides of 20 pi and 40 mm: two ways of the same length meet (20 pi - 40) / 2 mm before the end
+    length = 20.0 * np.pi + 40.0
+    assert float(note.split()[3]) == pytest.approx(length, rel=0.01)
+    assert "is opened near" in note
+    assert "'cut' opens it elsewhere" in note
+    w = np.pi * (1.0 - 0.5 * (20.0 * np.pi - 40.0) / (20.0 * np.pi))
+    meet = 1e-3 * np.array([40 - 20 * np.cos(w), 20 * np.sin(w), 0.0])
+    ends = [place for name, place in vessel.ends.items() if name.startswith("cut-")]
+    assert len(ends) == 2
+    assert all(np.linalg.norm(place - meet) < 3e-3 for place in ends)
+    assert vessel.lumen().length == pytest.approx(0.1, rel=0.02)
+
+
+def test_a_loop_is_opened_where_one_says(tmp_path: Path) -> None:
+    vessel = read(tmp_path, ring(), cut=[(40e-3, 20e-3, 0.0)])
+    assert not any("loop" in note for note in vessel.notes)
+    ends = [place for name, place in vessel.ends.items() if name.startswith("cut-")]
+    assert sorted(place[0] for place in ends) == pytest.approx([38e-3, 42e-3], abs=0.5e-3)
+    with pytest.raises(InputError, match=r"cannot be cut near .* mm, which is not in the vessel"):
+        read(tmp_path, ring(), cut=[(40e-3, 50e-3, 0.0)])
+
+
+def hairpin() -> tuple[np.ndarray, np.ndarray]:
+    """Out and back beside itself, closer than it is wide."""
+    out = np.linspace(0.0, 30.0, 61)
+    points = np.concatenate(
+        [np.column_stack([out, 0 * out]), np.column_stack([out, 0 * out])[::-1]]
+    )
+    points = np.column_stack([points[:, 0], np.repeat([0.0, 1.5], 61), np.zeros(122)])
+    return points, np.full(122, 2.0)
+
+
+def test_lines_are_made_longer_at_their_ends(tmp_path: Path) -> None:
+    short, long = read(tmp_path, [straight()]), read(tmp_path, [straight()], extend=1.0)
+    assert long.lumen().length - short.lumen().length == pytest.approx(2 * 2e-3, rel=1e-6)
+    assert long.ends["end-1"] == pytest.approx([-2e-3, 0, 0], abs=1e-9)
+
+
+def test_of_ends_of_the_same_width_that_where_lines_begin_is_the_entrance(tmp_path: Path) -> None:
+    lines = [(p[::-1], np.full(len(r), 2.0) + 0.002 * np.linspace(1, 0, len(r))) for p, r in fork()]
+    vessel = read(tmp_path, lines)  # they all stop at the origin, and are wider at the other ends
+    assert np.allclose(vessel.ends[vessel.entrance], 0.0, atol=1e-6)
+    assert any("is taken to be" in note and "about as wide" in note for note in vessel.notes)
+
+
+def test_the_wall_is_nowhere_outside_of_the_files_own(tmp_path: Path) -> None:
+    rng = np.random.default_rng(5)
+    off = 0.1 * rng.normal(size=fork()[0][0].shape)
+    noisy = [(p + off, r) for p, r in fork()]
+    for end in ("end-1", "end-2", "end-3"):
+        vessel = read(tmp_path, noisy, entrance=end)
+        points, walls = 1e-3 * np.concatenate([p for p, _ in noisy]), vessel.lumen()
+        radius = 1e-3 * np.concatenate([r for _, r in noisy])
+        for name in walls.outlets:  # an independent look at it: rings of points on each tube
+            centre, wide = walls.path(name).centreline(points=400)
+            around = centre[:, None] + wide[:, None, None] * rng.normal(size=(400, 20, 3))
+            around = centre[:, None] + wide[:, None, None] * (
+                (around - centre[:, None])
+                / np.linalg.norm(around - centre[:, None], axis=2, keepdims=True)
+            )
+            flat = around.reshape(-1, 3)
+            depth = (radius - np.linalg.norm(flat[:, None] - points, axis=2)).max(axis=1)
+            inner = np.repeat(np.arange(400), 20)
+            keep = (inner > 10) & (inner < 390)  # a ball at an end is no cap
+            assert -depth[keep].min() < 0.1 * wide.max()
 
 
 def test_spurs_are_left_out(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from scipy.spatial import KDTree
 from magwire.vessel import Vessel, vmtk
 from magwire.vessel.extract import extract
 from magwire.vessel.files import load
-from magwire.vessel.placement import guessed_unit
+from magwire.vessel.placement import sizes
 
 FOLDER = Path(os.environ.get("MAGWIRE_VESSELS", ""))
 FILES = {
@@ -36,7 +36,7 @@ there = pytest.mark.skipif(
 @pytest.mark.parametrize("name", sorted(FILES))
 def test_every_file_is_read(name: str) -> None:
     unit, outlets, (shortest, longest) = FILES[name]
-    assert guessed_unit(load(FOLDER / name)) == unit
+    assert sizes(load(FOLDER / name))[0].unit == unit
     vessel = Vessel.read(FOLDER / name, unit)
     lengths = [1e3 * tube.length for tube in vessel.tubes.values()]
     assert len(lengths) == outlets

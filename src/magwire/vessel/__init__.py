@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
-from magwire.vessel.reading import Spot, Vessel
+from magwire.vessel.reading import Source, Spot
+from magwire.vessel.vessel import Vessel
 
-__all__ = ["Spot", "Vessel"]
+__all__ = ["Source", "Spot", "Vessel"]

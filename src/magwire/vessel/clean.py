@@ -112,13 +112,10 @@ def _dense(line: Line, number: int) -> Line:
             f"{line.radius.min():.4g}; expected at most {MOST} points {STEP:g} radii apart"
         )
     arc = np.concatenate([[0.0], np.cumsum(steps)])
-    wanted = np.concatenate(
-        [
-            np.linspace(a, b, int(n), endpoint=False)
-            for a, b, n in zip(arc[:-1], arc[1:], parts, strict=True)
-        ]
-        + [arc[-1:]]
-    )
+    count = parts.astype(np.int64)
+    piece = np.repeat(np.arange(len(count)), count)
+    share = (np.arange(len(piece)) - np.repeat(np.cumsum(count) - count, count)) / count[piece]
+    wanted = np.append(arc[piece] + share * steps[piece], arc[-1])
     values = np.column_stack([line.points, np.log(line.radius)])
     if len(arc) < 4:
         found = np.column_stack([np.interp(wanted, arc, column) for column in values.T])

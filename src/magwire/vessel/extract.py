@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +13,7 @@ from magwire.vessel import vmtk
 from magwire.vessel.files.drawing import Array, FileFaultError, Indices, Line, Surface
 from magwire.vessel.interior import Interior, fill, to_wall, wall_samples
 from magwire.vessel.mesh import End, Shell, shell
+from magwire.vessel.words import long, place
 
 FINENESS = 0.25  # edge length of a voxel, over the radius of the narrowest end
 SPACING = 0.25  # of the points of the wall, over that radius
@@ -20,7 +21,10 @@ SHYNESS = 3.0  # power of the distance from the wall in the cost of a way
 PULLS = 40  # steps towards the middle
 FIRST_PULL = 0.2  # length of the first one, over the radius
 SMALLEST = 1e-3  # radius of an end, over the size of the vessel
-HOLE = 2.0  # radius of what is behind a hole, over its own
+ACROSS = 0.6  # of the wall around an end: cosine between its normals and the end's axis, at most
+LISTED = 8  # holes that are named one by one
+SHORTEST = 3.0  # length of a tube, over its largest radius
+NO_TUBE = 1.5  # how far half the surface may be from the balls inside, over their radius
 REACHES = 4.0  # length of a branch without a cap, over the radius where it leaves
 BRANCHES = 60
 MOST = 1000  # points of a line
@@ -31,14 +35,28 @@ COARSEST = (
 
 
 class Extracted(NamedTuple):
-    """Lines from the widest end to each other one, and what to know of them."""
+    """Lines from one end to each other one, what to know of them, all ends by name, the wall.
+
+    The wall is the surface without what closes its ends.
+    """
 
     lines: tuple[Line, ...]
     notes: tuple[str, ...]
+    ends: dict[str, Array]
+    wall: Surface
 
 
-def extract(surface: Surface) -> Extracted:
-    """The centrelines of a vessel's surface, closed or open, in the surface's unit.
+Choice = Callable[[dict[str, End]], str]
+"""Says at which end, of those by name, the vessel is entered."""
+
+
+def widest(ends: dict[str, End]) -> str:
+    """The name of the widest end."""
+    return max(ends, key=lambda name: ends[name].radius)
+
+
+def extract(surface: Surface, choose: Choice = widest) -> Extracted:
+    """The centrelines of a vessel's surface, closed or open [m].
 
     The ends are the open rims or, of a closed surface, its flat caps; if it has none, they are the
     tips of its branches. Where VMTK is installed, and there are rims or caps, the lines are its.
@@ -46,40 +64,61 @@ def extract(surface: Surface) -> Extracted:
     length over distance from the wall to the power of ``SHYNESS``. Each is then pulled to where the
     ball that touches the wall is largest, and that ball's radius is the radius.
 
+    Parameters
+    ----------
+    surface
+        The wall [m].
+    choose
+        The end that all lines start at. The ends are called ``end-1`` and so on, the widest first.
+
     Raises
     ------
     FileFaultError
-        If the surface is in pieces, has no inside or fewer than two ends.
+        If the surface is in pieces, has no inside or fewer than two ends, or is no tube.
     """
     hull = shell(surface)
     ends, notes = _without_holes(hull)
     if len(ends) > 1 and vmtk.installed():
-        found = _by_vmtk(hull, ends)
-        if found is not None:
-            notes = (*notes, "The centrelines are by VMTK.")
-            return Extracted(found[0], (*hull.notes, *notes, found[1]))
+        named = _named(ends)
+        first = choose(named)
+        lines = vmtk.centrelines(hull, list(named.values()), list(named).index(first))
+        if lines is not None:
+            spread = SPACING * min(end.radius for end in ends)
+            accuracy = _accuracy(lines, *wall_samples(hull.points, hull.wall, spread))
+            notes = (*hull.notes, *notes, "The centrelines are by VMTK.", accuracy)
+            return _result(lines, notes, named, first, hull)
         notes = (*notes, "VMTK does not find the way to every end; magwire's own extraction does.")
-    lines, accuracy = _through_voxels(hull, ends)
-    return Extracted(lines, (*hull.notes, *notes, accuracy))
+    lines, named, first, accuracy = _through_voxels(hull, ends, choose)
+    return _result(lines, (*hull.notes, *notes, accuracy), named, first, hull)
 
 
-def _by_vmtk(hull: Shell, ends: list[End]) -> tuple[tuple[Line, ...], str] | None:
-    """The lines by VMTK, and how accurate they are."""
-    lines = vmtk.centrelines(hull, ends, max(range(len(ends)), key=lambda k: ends[k].radius))
-    if lines is None:
-        return None
-    spread = SPACING * min(end.radius for end in ends)
-    return lines, _accuracy(lines, *wall_samples(hull.points, hull.wall, spread))
+def _named(ends: list[End]) -> dict[str, End]:
+    """Ends by name, the widest first."""
+    first = max(range(len(ends)), key=lambda k: ends[k].radius)
+    order = [ends[first], *ends[:first], *ends[first + 1 :]]
+    return {f"end-{k}": end for k, end in enumerate(order, start=1)}
 
 
-def _through_voxels(hull: Shell, ends: list[End]) -> tuple[tuple[Line, ...], str]:
-    """The lines by the voxels inside, and how accurate they are."""
+def _result(
+    lines: tuple[Line, ...], notes: tuple[str, ...], named: dict[str, End], first: str, hull: Shell
+) -> Extracted:
+    """Lines called what the ends are called that they lead to."""
+    others = [name for name in named if name != first]
+    called = tuple(line._replace(name=name) for line, name in zip(lines, others, strict=True))
+    places = {name: end.centre for name, end in named.items()}
+    return Extracted(called, notes, places, Surface(hull.points, hull.wall))
+
+
+def _through_voxels(
+    hull: Shell, ends: list[End], choose: Choice
+) -> tuple[tuple[Line, ...], dict[str, End], str, str]:
+    """The lines by the voxels inside, all ends, the first one, and how accurate the lines are."""
     narrow = min(end.radius for end in ends) if ends else _typical(hull)
     inside = fill(hull.points, np.concatenate([hull.wall, hull.caps]), FINENESS * narrow)
     if inside.cell > COARSEST * narrow:
         raise FileFaultError(
             f"has a surface too large to be filled with voxels that its narrowest end, of radius "
-            f"{narrow:.4g}, needs"
+            f"{long(narrow)}, needs"
         )
     samples, spacing = wall_samples(hull.points, hull.wall, SPACING * narrow)
     inside = _largest(inside)
@@ -89,17 +128,19 @@ def _through_voxels(hull: Shell, ends: list[End]) -> tuple[tuple[Line, ...], str
     ends = ends or _tips(inside, distance, tree)
     if len(ends) < 2:
         raise FileFaultError(f"has a surface with {len(ends)} open ends; expected two at least")
-    first = max(range(len(ends)), key=lambda k: ends[k].radius)
-    voxels = KDTree(inside.centres).query(np.array([end.centre for end in ends]))[1]
-    before = dijkstra(graph, directed=False, indices=voxels[first], return_predecessors=True)[1]
+    named = _named(ends)
+    first = choose(named)
+    voxels = KDTree(inside.centres).query(np.array([end.centre for end in named.values()]))[1]
+    start = int(voxels[list(named).index(first)])
+    before = dijkstra(graph, directed=False, indices=start, return_predecessors=True)[1]
     lines = []
-    for k, end in enumerate(ends):
-        if k != first:
-            way = inside.centres[_way(before, int(voxels[k]))]
-            way = np.concatenate([[ends[first].centre], way[1:-1], [end.centre]])
-            points = _pulled(way, tree, inside.cell, (ends[first], end))
+    for name, end, voxel in zip(named, named.values(), voxels.tolist(), strict=True):
+        if name != first:
+            way = inside.centres[_way(before, voxel)]
+            way = np.concatenate([[named[first].centre], way[1:-1], [end.centre]])
+            points = _pulled(way, tree, inside.cell, (named[first], end))
             lines.append(Line("", points, to_wall(tree, points, within=0.002)[0]))
-    return tuple(lines), _accuracy(lines, samples, spacing)
+    return tuple(lines), named, first, _accuracy(lines, samples, spacing)
 
 
 def _typical(hull: Shell) -> float:
@@ -126,17 +167,16 @@ def _largest(inside: Interior) -> Interior:
 
 
 def _without_holes(hull: Shell) -> tuple[list[End], tuple[str, ...]]:
-    """The ends behind which the vessel is about as wide as they are."""
-    if not hull.ends:
-        return [], ()
-    tree, size = KDTree(hull.points[np.unique(hull.wall)]), float(np.ptp(hull.points, axis=0).max())
-    kept = []
-    for end in hull.ends:
-        behind = end.centre - 3.0 * end.radius * end.outward
-        if SMALLEST * size < end.radius and float(tree.query(behind)[0]) < HOLE * end.radius:
-            kept.append(end)
-    lost = len(hull.ends) - len(kept)
-    return kept, (f"Holes in the wall: {lost}, closed.",) if lost else ()
+    """The ends that a tube leads to: the wall around them runs along, not across, their axis."""
+    size = float(np.ptp(hull.points, axis=0).max())
+    clean = [end.radius > SMALLEST * size and end.across < ACROSS for end in hull.ends]
+    kept = [end for end, good in zip(hull.ends, clean, strict=True) if good]
+    holes = [end for end, good in zip(hull.ends, clean, strict=True) if not good]
+    if not holes:
+        return kept, ()
+    where = [f"at {place(end.centre)} with radius {long(end.radius)}" for end in holes[:LISTED]]
+    more = f", and {len(holes) - LISTED} more" if len(holes) > LISTED else ""
+    return kept, (f"Holes in the wall: {len(holes)}, closed, {'; '.join(where)}{more}.",)
 
 
 def _tips(inside: Interior, distance: Array, tree: KDTree) -> list[End]:
@@ -206,15 +246,28 @@ def _even(points: Array, cell: float) -> Array:
 
 
 def _accuracy(lines: Sequence[Line], samples: Array, spacing: float) -> str:
-    """How far the surface is from the tubes of inscribed balls."""
+    """How far the surface is from the tubes of inscribed balls, if these are tubes at all."""
     points = np.concatenate([line.points for line in lines])
     radius = np.concatenate([line.radius for line in lines])
+    length = max(float(np.linalg.norm(np.diff(x.points, axis=0), axis=1).sum()) for x in lines)
     some = samples[:: max(1, len(samples) // 20_000)]
     distance, nearest = KDTree(points).query(some, k=min(16, len(points)))
-    off = np.abs((distance - radius[nearest]).reshape(len(some), -1).min(axis=1))
+    distance, nearest = distance.reshape(len(some), -1), nearest.reshape(len(some), -1)
+    off = np.abs((distance - radius[nearest]).min(axis=1))
+    far = float(np.median(off / radius[nearest[:, 0]]))
+    if length < SHORTEST * radius.max():
+        raise FileFaultError(
+            f"has a surface that is no tube: from end to end it is {long(length)} long, with a "
+            f"ball of radius {long(radius.max())} in it"
+        )
+    if far > NO_TUBE:
+        raise FileFaultError(
+            "has a surface that is no tube: half of it is farther from the balls that fit in "
+            f"around its centrelines than {far:.3g} of their radii"
+        )
     middle, most = np.percentile(off, [50, 95])
     return (
-        f"The radius is that of inscribed balls, within {spacing**2 / (2 * radius.min()):.2g}; the "
-        f"surface is off their tube by {middle:.2g} in the median and {most:.2g} at 95 percent, in "
-        "the file's unit."
+        f"The radius is that of inscribed balls, within {long(spacing**2 / (2 * radius.min()))}; "
+        f"the surface is off their tube by {long(middle)} in the median and {long(most)} at 95 "
+        "percent."
     )

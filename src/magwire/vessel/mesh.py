@@ -20,11 +20,23 @@ SMOOTHER = 0.6  # part of a cap's rim that is a sharp edge, at least
 
 
 class End(NamedTuple):
-    """An end of the vessel: centre and direction out of it, shape (3,), and radius."""
+    """An end of the vessel.
+
+    Attributes
+    ----------
+    centre, outward
+        Its middle, and the direction out of the vessel, shape (3,).
+    radius
+        Of a circle of the same area.
+    across
+        Mean of the cosine between its axis and the normals of the wall around it: near 0 at the end
+        of a tube, near 1 at a hole in a wall.
+    """
 
     centre: Array
     outward: Array
     radius: float
+    across: float = 0.0
 
 
 class Shell(NamedTuple):
@@ -143,7 +155,11 @@ def _capped(
     for cap, centre in zip(caps, centres, strict=True):
         reach = 3.0 * np.linalg.norm(every[cap[:, 0]] - centre, axis=1).max()
         near = inside[np.linalg.norm(inside - centre, axis=1) < reach]
-        ends.append(_end(every, cap, near.mean(axis=0)))
+        end = _end(every, cap, near.mean(axis=0))
+        around = np.isin(triangles, cap[:, 0]).any(axis=1)
+        size, normals = areas(every, triangles[around])
+        across = np.average(np.abs(normals @ end.outward), weights=np.maximum(size, 1e-300))
+        ends.append(end._replace(across=float(across)))
     return Shell(every, triangles, np.concatenate(caps), ends, notes)
 
 

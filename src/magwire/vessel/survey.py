@@ -13,7 +13,7 @@ from magwire.lumen.branch import Bend, Branch
 from magwire.vessel.files import Drawing
 from magwire.vessel.files.drawing import Array
 from magwire.vessel.placement import Placement
-from magwire.vessel.reading import Vessel
+from magwire.vessel.vessel import Vessel
 
 FLIPS = {
     "x and y": (-1.0, -1.0, 1.0),

@@ -7,6 +7,7 @@ cylinder, where the diagram degenerates and lines leap from end to end, so they 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from importlib.util import find_spec
 from typing import Any
 
@@ -18,6 +19,9 @@ from magwire.vessel.mesh import End, Shell
 EDGE = 0.25  # mean edge of the triangles, over the radius of the narrowest end, at most
 MOVED = 1e-4  # standard deviation of what points are moved by, over that edge
 MOST = 200_000  # triangles
+SHORT = 0.5  # last step of a line that was not led on to the end of the vessel, over the radius
+WAVY = 0.04  # part of the radius by which it goes up and down on a coarse surface, at least
+RINGS = 8  # turns of the radius from which they are waves
 RADIUS = "MaximumInscribedSphereRadius"
 
 
@@ -63,6 +67,50 @@ def centrelines(hull: Shell, ends: list[End], first: int) -> tuple[Line, ...] | 
     return tuple(
         _line(points, radius, found.GetCell(i), (ends[first], end)) for i, end in enumerate(others)
     )
+
+
+def hints(arrays: Sequence[str], lines: Sequence[Line], extend: float) -> tuple[str, ...]:
+    """What to know of lines that VMTK has made, a sentence each.
+
+    Parameters
+    ----------
+    arrays
+        Names of the file's arrays.
+    lines
+        Its lines [m].
+    extend
+        By how many radii their ends are made longer.
+    """
+    if RADIUS not in arrays:
+        return ()
+    notes = []
+    last = [np.linalg.norm(x.points[[1, -1]] - x.points[[0, -2]], axis=1) for x in lines]
+    ends = [x.radius[[0, -1]] for x in lines]
+    if extend == 0.0 and all(np.all(a < SHORT * b) for a, b in zip(last, ends, strict=True)):
+        notes.append(
+            "VMTK's lines end about a radius before the vessel does, unless told otherwise: it may "
+            "be two radii short; 'extend = 1' makes it longer by a radius at each end."
+        )
+    waves = max((_waves(line) for line in lines), default=0.0)
+    if waves > WAVY:
+        notes.append(
+            f"The radius goes up and down by {100.0 * waves:.0f} percent along the lines, as it "
+            "does on coarse surfaces, where VMTK's is up to as much too large."
+        )
+    return tuple(notes)
+
+
+def _waves(line: Line) -> float:
+    """By how much of itself the radius goes up and down from one ring of points to the next.
+
+    A ball that touches the points of two rings s apart has the radius sqrt(r^2 + (s/2)^2) midway.
+    """
+    radius = line.radius[np.isfinite(line.radius) & (line.radius > 0.0)]
+    turns = np.flatnonzero(np.diff(np.sign(np.diff(radius))) != 0.0) + 1
+    if len(turns) < RINGS:
+        return 0.0
+    swings = np.abs(np.diff(np.log(radius[turns])))
+    return float(np.expm1(np.median(swings)))
 
 
 def _wall(hull: Shell, edge: float) -> Any:

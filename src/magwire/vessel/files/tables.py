@@ -119,10 +119,10 @@ def _drawing(columns: dict[str, list[str]], radius: str | None, heads: Heads) ->
     others = tuple(name for name in columns if name not in AXES)
     name = pick_radius(others, radius)
     values = np.full(len(points), np.nan) if name is None else _numbers(name, columns[name])
-    units = {"unit": heads.unit, "radius_unit": heads.others.get(name or "")}
+    empty = Drawing(unit=heads.unit, radius_unit=heads.others.get(name or ""), arrays=others)
     group = next((head for head in others if head.lower() in GROUPS and head != name), None)
     if group is None:
-        return Drawing((Line("", points, values),), arrays=others, **units)
+        return empty._replace(lines=(Line("", points, values),))
     labels = np.array(columns[group])
     named = group.lower() in ("branch", "vessel", "name", "line")
     order = list(dict.fromkeys(columns[group]))
@@ -130,5 +130,4 @@ def _drawing(columns: dict[str, list[str]], radius: str | None, heads: Heads) ->
         Line(label if named else "", points[labels == label], values[labels == label])
         for label in order
     )
-    kept = tuple(line for line in lines if len(line.points) > 1)
-    return Drawing(kept, arrays=others, **units)
+    return empty._replace(lines=tuple(line for line in lines if len(line.points) > 1))

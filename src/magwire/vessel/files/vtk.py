@@ -113,7 +113,9 @@ class _Contents:
         """Read to the end."""
         while words := self.source.words():
             self._section(words[0].upper(), words)
-        return PolyData(self.points, self.arrays, *self.cells.values(), self.fields)
+        return PolyData(
+            self.points, self.arrays, self.cells["lines"], self.cells["polygons"], self.fields
+        )
 
     def _section(self, key: str, words: list[str]) -> None:
         source = self.source
