@@ -86,10 +86,10 @@ def extract(surface: Surface, choose: Choice = widest) -> Extracted:
             spread = SPACING * min(end.radius for end in ends)
             accuracy = _accuracy(lines, *wall_samples(hull.points, hull.wall, spread))
             notes = (*hull.notes, *notes, "The centrelines are by VMTK.", accuracy)
-            return _result(lines, notes, named, first, hull)
+            return _result(lines, notes, named, hull)
         notes = (*notes, "VMTK does not find the way to every end; magwire's own extraction does.")
-    lines, named, first, accuracy = _through_voxels(hull, ends, choose)
-    return _result(lines, (*hull.notes, *notes, accuracy), named, first, hull)
+    lines, named, accuracy = _through_voxels(hull, ends, choose)
+    return _result(lines, (*hull.notes, *notes, accuracy), named, hull)
 
 
 def _named(ends: list[End]) -> dict[str, End]:
@@ -100,19 +100,16 @@ def _named(ends: list[End]) -> dict[str, End]:
 
 
 def _result(
-    lines: tuple[Line, ...], notes: tuple[str, ...], named: dict[str, End], first: str, hull: Shell
+    lines: tuple[Line, ...], notes: tuple[str, ...], named: dict[str, End], hull: Shell
 ) -> Extracted:
-    """Lines called what the ends are called that they lead to."""
-    others = [name for name in named if name != first]
-    called = tuple(line._replace(name=name) for line, name in zip(lines, others, strict=True))
     places = {name: end.centre for name, end in named.items()}
-    return Extracted(called, notes, places, Surface(hull.points, hull.wall))
+    return Extracted(lines, notes, places, Surface(hull.points, hull.wall))
 
 
 def _through_voxels(
     hull: Shell, ends: list[End], choose: Choice
-) -> tuple[tuple[Line, ...], dict[str, End], str, str]:
-    """The lines by the voxels inside, all ends, the first one, and how accurate the lines are."""
+) -> tuple[tuple[Line, ...], dict[str, End], str]:
+    """The lines by the voxels inside, all ends, and how accurate the lines are."""
     narrow = min(end.radius for end in ends) if ends else _typical(hull)
     inside = fill(hull.points, np.concatenate([hull.wall, hull.caps]), FINENESS * narrow)
     if inside.cell > COARSEST * narrow:
@@ -140,7 +137,7 @@ def _through_voxels(
             way = np.concatenate([[named[first].centre], way[1:-1], [end.centre]])
             points = _pulled(way, tree, inside.cell, (named[first], end))
             lines.append(Line("", points, to_wall(tree, points, within=0.002)[0]))
-    return tuple(lines), named, first, _accuracy(lines, samples, spacing)
+    return tuple(lines), named, _accuracy(lines, samples, spacing)
 
 
 def _typical(hull: Shell) -> float:
