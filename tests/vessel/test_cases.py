@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 from pathlib import Path
@@ -9,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import magwire as mw
 from magwire.cli import main
 from magwire.errors import InputError
 from magwire.vessel import Vessel
@@ -131,11 +133,83 @@ def test_marks_of_a_converted_file_stay_in_every_encoding() -> None:
     )
 
 
+@pytest.mark.parametrize("name", ["r1_resaved_lz4.vtp", "r1_resaved_legacy_binary.vtk"])
+def test_vtk_9_7_saves_it_again(name: str) -> None:
+    vessel = reads(name, None)
+    assert (vessel.entrance, list(vessel.balls)) == ("end-1", ["main", "side"])
+    assert vessel.smoothing == 0.0
+
+
+def test_tubes_are_turned_and_moved_as_itk_does() -> None:
+    """Written by ITK 5.4.7, with a quarter turn about z and an offset of (10, 20, 30)."""
+    (line,) = load(FOLDER / "itk_binary_transform.tre").lines
+    assert np.allclose(line.points[:3], [[10, 20, 30], [9.5, 21, 30.25], [9, 22, 30.5]])
+    assert line.radius == pytest.approx([1.0, 1.1, 1.2, 1.3, 1.4])
+
+
+@pytest.mark.parametrize(("kind", "stated"), [("<f8", True), ("<f8", False), ("<f4", True)])
+def test_binary_tubes_of_every_width(kind: str, stated: bool, tmp_path: Path) -> None:
+    rows = np.column_stack([np.arange(9.0), 0.5 * np.arange(9.0), np.zeros(9), np.full(9, 2.0)])
+    name = "MET_DOUBLE" if kind == "<f8" else "MET_FLOAT"
+    tube = (
+        b"ObjectType = Tube\nNDims = 3\nBinaryData = True\nPointDim = x y z r\n"
+        + (f"ElementType = {name}\n" if stated else "").encode()
+        + b"NPoints = 9\nPoints = \n"
+        + rows.astype(kind).tobytes()
+        + b"\n"
+    )
+    (tmp_path / "a.tre").write_bytes(b"ObjectType = Scene\nNDims = 3\n" + tube + tube)
+    for line in load(tmp_path / "a.tre").lines:
+        assert np.array_equal(np.column_stack([line.points, line.radius]), rows)
+    assert len(load(tmp_path / "a.tre").lines) == 2
+
+
+def test_a_curve_that_begins_elsewhere_in_the_list(tmp_path: Path) -> None:
+    curve = json.loads((FOLDER / BRANCHES[0]).read_text())
+    points = curve["markups"][0]["controlPoints"]
+    curve["markups"][0]["controlPoints"] = points[1:] + points[:1]
+    radii = curve["markups"][0]["measurements"][0]["controlPointValues"]
+    curve["markups"][0]["measurements"][0]["controlPointValues"] = radii[1:] + radii[:1]
+    (tmp_path / "a.mrk.json").write_text(json.dumps(curve))
+    vessel = Vessel.read(tmp_path / "a.mrk.json")
+    is_the_line(vessel, "main")
+    assert any("begins at its control point" in note for note in vessel.notes)
+
+
+def test_a_unit_may_be_a_coded_entry(tmp_path: Path) -> None:
+    text = (FOLDER / BRANCHES[0]).read_text()
+    coded = text.replace(
+        '"coordinateUnits": "mm"', '"coordinateUnits": ["mm", "UCUM", "millimeter"]'
+    )
+    assert coded != text
+    (tmp_path / "a.mrk.json").write_text(coded)
+    assert load(tmp_path / "a.mrk.json").unit == "mm"
+
+
+def test_the_sides_of_a_soma_are_no_vessel(tmp_path: Path) -> None:
+    rows = ["1 1 0 0 0 5 -1", "2 1 0 5 0 5 1", "3 1 0 -5 0 5 1"]
+    rows += [f"{k} 3 {2 * k} 0 0 2 {1 if k == 4 else k - 1}" for k in range(4, 30)]
+    (tmp_path / "a.swc").write_text("\n".join(rows))
+    drawing = load(tmp_path / "a.swc")
+    assert len(drawing.lines) == 1
+    assert any("soma" in note for note in drawing.notes)
+
+
+def test_outlets_by_their_clinical_names() -> None:
+    lumen = mw.load_scenario("aortic-arch").lumen.build()
+    assert lumen.path("LCCA") is lumen.path("left carotid")
+    assert lumen.path("lsa") is lumen.path("left subclavian")
+    assert lumen.path("BCA") is lumen.path("Brachiocephalic artery")
+    with pytest.raises(InputError, match="one of the outlets"):
+        lumen.path("LAD")
+
+
 def test_models_in_ras_lie_where_their_curve_does() -> None:
     model, curve = load(FOLDER / "r2_space_ras.vtp"), load(FOLDER / "r2_space_ras.mrk.json")
     assert np.allclose(model.lines[0].points, curve.lines[0].points, rtol=0, atol=1e-12)
     assert not load(FOLDER / "r2_space_lps.vtp").notes
-    for found in (model, curve):
+    binary = load(FOLDER / "r2_space_ras_binary.vtk")
+    for found in (model, curve, binary):
         assert any("x and y are turned round, to LPS" in note for note in found.notes)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import corrupted_files
+import vessel_files
 from magwire.errors import InputError
 from magwire.lumen import Lumen
 from magwire.vessel import Vessel
@@ -157,3 +158,30 @@ def test_corrupted_files_are_read_or_refused() -> None:
     found = corrupted_files.campaign(250, 7, seeds)
     assert sum(n for what, n in found.items() if "refused" in what) > 25
     assert sum(n for what, n in found.items() if "read" in what) > 25
+
+
+def test_holes_are_closed_and_listed_and_short_ends_are_not(tmp_path: Path) -> None:
+    from magwire.vessel.extract import _without_holes
+    from magwire.vessel.files import Surface
+    from magwire.vessel.mesh import shell
+
+    corners, triangles = vessel_files.tube()
+    middle = 0.25 * (corners[triangles[1400, 0]] + 3.0 * corners[triangles[1400, 1]])
+    away = np.linalg.norm(corners[triangles].mean(axis=1) - middle, axis=1)
+    ends, notes = _without_holes(shell(Surface(1e-3 * corners, triangles[away > 1.2])))
+    assert len(ends) == 2
+    (note,) = notes
+    assert note.startswith("Holes in the wall: 1, closed, at (")
+    assert "with radius 1" in note
+
+
+def test_a_chamber_is_no_tube() -> None:
+    trimesh = pytest.importorskip("trimesh")
+    from magwire.vessel.extract import extract
+    from magwire.vessel.files import Surface
+    from magwire.vessel.files.drawing import FileFaultError
+
+    ball = trimesh.creation.icosphere(3, radius=0.02)
+    open_ends = np.abs(ball.vertices[ball.faces].mean(axis=1)[:, 2]) < 0.017
+    with pytest.raises(FileFaultError, match="is no tube: from end to end it is"):
+        extract(Surface(np.array(ball.vertices), np.array(ball.faces)[open_ends]))

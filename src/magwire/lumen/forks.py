@@ -31,7 +31,8 @@ from magwire.lumen.tree import (
 Array = NDArray[np.float64]
 
 LEAD = 6  # points before a way leaves, so that its curve does not begin there
-AT_ONCE = 32  # points that are looked at together
+RUN_IN = 16  # points of a way behind where it leaves, about four radii
+AT_ONCE = 8  # points that are looked at together
 
 
 def join_ways(ways: Mapping[str, Array], width: float | None) -> Tree:
@@ -90,7 +91,8 @@ def _wall(name: str, balls: Array, shared: int, walls: Walls, width: float | Non
     knots = np.concatenate([[0.0], np.cumsum(steps)])
     course = spline(knots, part)
     own = knots[start - first :]
-    arcs = np.sort(np.concatenate([own, 0.5 * (own[1:] + own[:-1])]))
+    near = own[:RUN_IN]  # closer together where the wall takes on its radius
+    arcs = np.sort(np.concatenate([own, 0.5 * (near[1:] + near[:-1])]))
     tangents = course(own[[0, -1]], 1)[:, :3]
     return grown(name, Line(arcs - own[0], course(arcs), tangents, True), walls, width)
 

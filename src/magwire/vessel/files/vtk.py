@@ -97,6 +97,22 @@ class _Source:
             raise ValueError
         return np.array(texts, dtype=code)
 
+    def text(self) -> str:
+        """The next text of an array of texts.
+
+        In binary files its length stands before it, in one, two, four or eight bytes, of which the
+        first two bits say which (as VTK 9.7 writes it).
+        """
+        if not self.binary:
+            return unquote(self.line().strip())
+        width = 8 >> (self.data[self.place] >> 6)
+        packed = int.from_bytes(self.data[self.place : self.place + width], "big")
+        size = packed & ((1 << (8 * width - 2)) - 1)
+        begin, self.place = self.place + width, self.place + width + size
+        if self.place > len(self.data):
+            raise ValueError
+        return self.data[begin : self.place].decode("latin-1")
+
 
 class _Contents:
     """The sections of a file, one after the other."""
@@ -164,8 +180,8 @@ class _Contents:
             components, rows = int(words[1]), int(words[2])
             name = unquote(words[0])
             if words[3] == "string":
-                lines = [self.source.line() for _ in range(min(rows, MOST_POINTS))]
-                self.fields[name] = tuple(unquote(line.strip()) for line in lines)
+                count = min(components * rows, MOST_POINTS)
+                self.fields[name] = tuple(self.source.text() for _ in range(count))
             else:
                 values = self.source.numbers(components * rows, words[3])
                 if name == MARK:
