@@ -39,6 +39,8 @@ def plan_outlets(
         Outlets to try, by their names or numbers, or points; all of them if left out.
     max_field
         Largest flux density, such as "50 mT".
+    reading
+        How a vessel's file is read.
     youngs_modulus
         With a vessel's file: of the wire, "3 MPa" if left out.
     magnetization

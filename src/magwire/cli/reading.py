@@ -14,9 +14,7 @@ if TYPE_CHECKING:
     from magwire.vessel import Source
 
 Point = Annotated[str | None, Parameter(allow_leading_hyphen=True)]
-Points = Annotated[
-    tuple[str, ...], Parameter(allow_leading_hyphen=True, consume_multiple=True, negative="")
-]
+Points = Annotated[tuple[str, ...], Parameter(allow_leading_hyphen=True, negative="")]
 
 
 @Parameter(name="*")

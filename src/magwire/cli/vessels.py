@@ -31,6 +31,8 @@ def inspect_lumen(
     ----------
     files
         The file; or a folder of files, or several files, of one branch each.
+    reading
+        How a vessel's file is read.
     wire
         Diameter of a wire, such as "0.4 mm", to say which outlets it gets to.
     youngs_modulus
@@ -75,6 +77,8 @@ def convert_lumen(
     files
         Centrelines or a surface; and last the file to write: .vtp as VMTK does, in millimetres; .nc
         (NetCDF), in metres; or .toml, the lumen's table of a scenario.
+    reading
+        How a vessel's file is read.
     target
         Name or number of an end, or a point, of the scenario's table; the first outlet if left out.
     force
