@@ -105,7 +105,7 @@ def _draw_surface(axes: Any, surface: Mesh) -> None:
     """Draw triangles; of very many, some, evenly spread."""
     some = surface.triangles[:: max(1, len(surface.triangles) // TRIANGLES)]
     sheet = Poly3DCollection(
-        1e3 * surface.points[some], facecolors=style.LUMEN_EDGE, alpha=0.12, rasterized=True
+        1e3 * surface.points[some], facecolors=style.LUMEN_EDGE, alpha=0.3, rasterized=True
     )
     axes.add_collection3d(sheet)
 
