@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from itertools import islice
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -18,6 +19,7 @@ from magwire.vessel.words import long, place
 WIDE = 1.0  # how far apart the two sides of a loop are, at least, over the radius
 UNLIKE = 1e4  # largest radius over the smallest
 CUT = 1.2  # how far from where a loop is cut its two sides end, over the radius
+LOOPS = 32  # that are opened; the arteries of a brain have fewer
 BETWEEN = 2  # balls between two points of a line, which are a tenth of a radius apart
 
 
@@ -139,9 +141,17 @@ class Network:
 
         A loop is opened where it is farthest from that point: where two ways to it are as long.
         The points before are of shape (n,), negative where there is none.
+
+        Raises
+        ------
+        FileFaultError
+            If there are more than ``LOOPS``.
         """
         network, before = self, self._before(start)
-        for u, v in self._loops(before):
+        loops = list(islice(self._loops(before), LOOPS + 1))
+        if len(loops) > LOOPS:
+            raise FileFaultError(f"has more than {LOOPS} loops; expected a tree with a few at most")
+        for u, v in loops:
             network = network._opened(u, v, before)
         return network, before if network is self else network._before(start)
 
