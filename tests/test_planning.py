@@ -235,6 +235,34 @@ def test_command_on_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -
     assert "of feed" in seen
 
 
+def test_command_on_some_outlets_says_each_as_it_is_done(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import vessel_files
+    from magwire import plan_commands
+
+    file, out = tmp_path / "fork.vtp", tmp_path / "out"
+    file.write_bytes(vessel_files.vtp())
+    seen: list[tuple[str, str]] = []
+    ahead = {p.outlet: p for p in mw.plan(FORK, WIRE, outlets=("thin",))}["thin"]
+
+    def planned(lumen: mw.Lumen, wire: mw.Wire, *, outlets: tuple[str, ...], **_: object) -> list:  # type: ignore[type-arg]
+        done = (out / "plan.csv").read_text() if out.exists() else ""
+        seen.append((capsys.readouterr().out, done))
+        return [replace(ahead, outlet=name) for name in outlets]
+
+    monkeypatch.setattr(plan_commands, "plan", planned)
+    words = ["plan", str(file), "--units", "mm", "--wire", "1 mm", "--out", str(out)]
+    targets = ["--target", "end-3", "--target", "2", "--entrance", "-0.1 mm, 0 mm, 0 mm"]
+    assert main([*words, *targets, "--smoothing", "0.4", "--radius", "Radius"]) == 0
+    first, second = seen
+    assert "The wall lies outside of the file's balls" in first[0]
+    assert first[1] == ""
+    assert second[0].startswith("end-3")  # it is there before the next one is tried
+    assert "end-3" in second[1]
+    assert "end-2" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [

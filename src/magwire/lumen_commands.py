@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from magwire.errors import MagwireError
-from magwire.lumen.files import Drawing, Line, load, netcdf, vtp
-from magwire.lumen.vessel import Spot, Vessel, survey
-from magwire.lumen.vessel.placement import Placement, guessed_unit
 from magwire.units import DIMENSIONS, parse, show
+from magwire.vessel import Source, Spot, Vessel, survey
+from magwire.vessel.files import Drawing, Line, load, netcdf, vtp
+from magwire.vessel.placement import Placement, missing_unit, sizes
+from magwire.vessel.reading import called
 
 WRITTEN = (".vtp", ".nc", ".toml")
 MM = 1e3
@@ -21,14 +22,33 @@ class LumenCommandError(MagwireError):
     """A command on a vessel's file that cannot be carried out."""
 
 
+class Inspected(NamedTuple):
+    """What is in a vessel's file, a line each, the vessel, and why a run would refuse it, or ""."""
+
+    lines: list[str]
+    vessel: Vessel
+    refusal: str
+
+
 def spot(text: str | None, name: str) -> Spot | None:
     """An end by its name or number, or a point such as "1 mm, 2 mm, 3 mm"."""
     if text is None:
         return None
-    parts = text.split(",")
-    if len(parts) == 3:
-        return [parse(part.strip(), "length", name) for part in parts]
+    if text.count(",") == 2:
+        return triple(text, "length", name)
     return int(text) if text.strip().isdecimal() else text
+
+
+def triple(text: str, dimension: str, name: str) -> list[float]:
+    """Three quantities such as "1 mm, 2 mm, 3 mm"."""
+    parts = text.split(",")
+    if len(parts) != 3:
+        example = DIMENSIONS[dimension].example
+        raise LumenCommandError(
+            f"Input {name} must be three quantities such as '{example}, {example}, {example}'; "
+            f"received {text!r}."
+        )
+    return [parse(part.strip(), dimension, name) for part in parts]
 
 
 def radius_of(text: str | None) -> float | str | None:
@@ -37,21 +57,22 @@ def radius_of(text: str | None) -> float | str | None:
 
 
 def inspect(
-    path: Path,
+    source: Source,
     *,
     units: str | None,
     wire: dict[str, str | None],
     other: Path | None,
     **options: Any,
-) -> tuple[list[str], Vessel]:
-    """What to know of a vessel's file, a line each, and the vessel.
+) -> Inspected:
+    """What to know of a vessel's file.
 
     Parameters
     ----------
-    path
-        The file.
+    source
+        The file, the folder or the files.
     units
-        Of its numbers; guessed if left out and if the file states none.
+        Of its numbers; if left out, and if the file states none, the likeliest, which is no refusal
+        where it is the only plausible one.
     wire
         Texts by name: its ``diameter``, its ``modulus`` and the ``force`` that it may take.
     other
@@ -60,21 +81,29 @@ def inspect(
         For ``Vessel.read``.
     """
     named = options.get("radius")
-    drawing = load(path, named if isinstance(named, str) else None)
+    drawing = load(source, named if isinstance(named, str) else None)
     stated = drawing.unit in DIMENSIONS["length"].units
-    unit = units or (str(drawing.unit) if stated else guessed_unit(drawing))
-    vessel = Vessel.read(path, unit, **options)
+    unit = units or (str(drawing.unit) if stated else sizes(drawing)[0].unit)
+    vessel = Vessel.read(source, unit, **options)
+    known = units or stated or len(sizes(drawing)) == 1
+    refusal = "" if known else str(missing_unit(called(source), drawing))
+    try:
+        vessel.lumen()
+        vessel.check()
+    except MagwireError as error:
+        refusal = refusal or str(error)
     lines = [
         f"{'file':12}{_contents(drawing)}",
         f"{'units':12}{_unit_words(drawing, units, stated)}",
         f"{'smoothing':12}{vessel.smoothing:g} radii",
+        *(f"{'' if k else 'wall':12}{line}" for k, line in enumerate(vessel.deviation_words)),
         "",
         *_ends(vessel),
         "",
         *_table(vessel, wire),
         *_warnings(vessel, other, unit, options),
     ]
-    return lines, vessel
+    return Inspected(lines, vessel, refusal)
 
 
 def convert(vessel: Vessel, target: Spot | None, out: Path, *, force: bool) -> None:
@@ -121,7 +150,7 @@ def picture(vessel: Vessel, path: Path, wire: str | None) -> None:
     tubes = {name: tube.centreline() for name, tube in vessel.tubes.items()}
     radius = None if wire is None else 0.5 * parse(wire, "diameter", "--wire")
     try:
-        vessels.save(tubes, path, radius)
+        vessels.save(tubes, path, radius, vessel.surface)
     except (OSError, ValueError) as error:
         why = str(error).splitlines()[0].rstrip(".")
         raise LumenCommandError(f"Picture '{path}' cannot be written: {why}.") from None
@@ -145,44 +174,61 @@ def _contents(drawing: Drawing) -> str:
 
 
 def _unit_words(drawing: Drawing, units: str | None, stated: bool) -> str:
-    guess = guessed_unit(drawing)
     if units is not None:
-        return units + ("" if guess == units else f"; the numbers look like {guess}")
+        return units
     if stated:
-        return f"{drawing.unit}, as the file states" + (
-            "" if guess == drawing.unit else f"; the numbers look like {guess}"
-        )
-    return f"not stated; the numbers look like {guess}, which is taken here"
+        return f"{drawing.unit}, as the file states"
+    likely = sizes(drawing)
+    if len(likely) == 1:
+        return f"not stated; the numbers look like {likely[0].unit}, which is taken here"
+    words = ", or ".join(f"{size.unit}, {size.words}" for size in likely)
+    return f"not stated; the numbers look like {words}; {likely[0].unit} is taken here"
 
 
 def _ends(vessel: Vessel) -> Iterator[str]:
-    yield f"{'':2}{'end':14}{'x, y, z [mm]':>28}"
-    for number, (name, place) in enumerate(vessel.ends.items(), start=1):
-        x, y, z = MM * place
-        note = "  entrance" if name == vessel.entrance else ""
-        yield f"{number:<3}{name:13}{f'{x:.2f}, {y:.2f}, {z:.2f}':>28}{note}"
+    rows = [("", "end", "x, y, z [mm]", "")]
+    for number, (name, at) in enumerate(vessel.ends.items(), start=1):
+        x, y, z = MM * at
+        note = "entrance" if name == vessel.entrance else ""
+        note = note or ("" if name in vessel.balls else "no way to it")
+        rows.append((str(number), name, f"{x:.2f}, {y:.2f}, {z:.2f}", note))
+    return _columns(rows, "<<><")
 
 
 def _table(vessel: Vessel, wire: dict[str, str | None]) -> Iterator[str]:
     """One row for each outlet; with a wire, whether it gets there."""
     asked = wire["diameter"] is not None
-    yield (
-        f"{'outlet':14}{'length':>8}{'own':>8}{'radius':>14}{'narrowest at':>14}"
-        f"{'tightest bend':>15}{'at':>7}{'moved by':>10}{'narrowed':>10}"
-        + ("  reachable" if asked else "")
-    )
+    heads = ("outlet", "length", "own", "radius", "narrowest at", "tightest bend", "at")
+    rows = [(*heads, "moved by", "narrowed", "reachable" if asked else "")]
     for course in survey.courses(vessel):
         way = vessel.ways[course.name]
         low, high = (MM * radius for radius in course.radii)
         bend = "straight" if math.isinf(course.bend.radius) else f"{MM * course.bend.radius:.2f}"
-        yield (
-            f"{course.name:14}{MM * course.length:8.1f}{MM * course.own:8.1f}"
-            f"{f'{low:.2f} to {high:.2f}':>14}{MM * course.narrowest:14.1f}{bend:>15}"
-            f"{MM * course.bend.arc:7.1f}{MM * way.deviation[0]:10.2f}{MM * way.narrowed:10.2f}"
-            + (f"  {_verdict(course, wire)}" if asked else "")
+        rows.append(
+            (
+                course.name,
+                f"{MM * course.length:.1f}",
+                f"{MM * course.own:.1f}",
+                f"{low:.2f} to {high:.2f}",
+                f"{MM * course.narrowest:.1f}",
+                bend,
+                f"{MM * course.bend.arc:.1f}",
+                f"{MM * way.deviation[0]:.2f}",
+                f"{MM * way.narrowed:.2f}",
+                _verdict(course, wire) if asked else "",
+            )
         )
+    yield from _columns(rows, "<>>>>>>>><")
     yield "All in mm. Smoothing moved no point by more than 'moved by', and took at most 'narrowed'"
     yield "off the radius where the lumen would have been wider than its bend or tapered too fast."
+
+
+def _columns(rows: Sequence[Sequence[str]], sides: str) -> Iterator[str]:
+    """Rows as lines, with columns as wide as what is in them."""
+    wide = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        cells = zip(row, sides, wide, strict=True)
+        yield "  ".join(f"{cell:{side}{width}}" for cell, side, width in cells).rstrip()
 
 
 def _verdict(course: survey.Course, wire: dict[str, str | None]) -> str:
@@ -214,10 +260,6 @@ def _warnings(
             found.append(f"The axes {flip} of '{other}' point the other way.")
         else:
             found.append(f"The axes of '{other}' are the same, as far as can be seen.")
-    try:
-        vessel.lumen()
-    except MagwireError as error:
-        found.append(str(error))
     if found:
         yield ""
         yield from found

@@ -5,23 +5,23 @@ from __future__ import annotations
 import csv
 import json
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from magwire.errors import InputError, positive
+from magwire.contact import Barrier
+from magwire.errors import InputError, one_of, positive
 from magwire.lumen import Lumen
-from magwire.lumen.vessel import Vessel
+from magwire.lumen.names import meant
 from magwire.lumen_commands import spot
 from magwire.navigate.demands import Demands
 from magwire.planning import Prospect, plan
 from magwire.units import parse
+from magwire.vessel import Source, Vessel
 from magwire.wire import Wire
 
 if TYPE_CHECKING:
-    from rich.table import Table
-
     from magwire.scenario import Scenario
 
 TABLES, MAP = ("plan.csv", "plan.json"), "plan.png"
@@ -31,7 +31,6 @@ FINEST = 0.5  # edge length at least, over the radius of the wire
 MAGNET = 10.0  # length of the magnet, over the radius of the wire, if nothing else is said
 TRUNK = 5.0  # length of a wire before it is fitted to its way, over that of its magnet
 POISSON = 0.5
-FILE_WIDTH = 160  # of the table where it does not go to a terminal
 DENSITY = 2000.0  # plays no part in equilibria [kg/m^3]
 DEFAULTS = {"modulus": "3 MPa", "magnetization": "128 kA/m"}
 COLUMNS = {
@@ -57,43 +56,53 @@ COLUMNS = {
 Words = Mapping[str, str | None]
 
 
-def of_file(
-    path: Path,
-    words: Words,
-    *,
-    units: str | None,
-    entrance: str | None,
-    scale: float,
-    watch: Callable[[str], None] | None,
-) -> tuple[Lumen, list[Prospect]]:
-    """Plan for a vessel's file.
+class Work(NamedTuple):
+    """What is to be planned.
+
+    Attributes
+    ----------
+    lumen, wire
+        The lumen, and the wire that goes through it.
+    demands, contact
+        What the field must keep to, and the wall's barrier; one that fits if None.
+    notes
+        What was done to the vessel's file, a sentence each.
+    vessel
+        What the file holds; None for a scenario.
+    """
+
+    lumen: Lumen
+    wire: Wire
+    demands: Demands
+    contact: Barrier | None
+    notes: tuple[str, ...]
+    vessel: Vessel | None
+
+
+def of_file(source: Source, units: str | None, words: Words, options: dict[str, Any]) -> Work:
+    """What to plan for a vessel's file.
 
     Parameters
     ----------
-    path
-        The file.
+    source, units, options
+        For ``Vessel.read``.
     words
         Texts by name: the wire's ``diameter``, ``modulus``, ``magnetization`` and ``magnet``, and
         the largest ``field``.
-    units, entrance, scale
-        For ``Vessel.read``.
-    watch
-        Called with the name of each outlet before it is tried.
     """
     if words["diameter"] is None:
         raise InputError(
             "Input --wire must be the wire's diameter, such as '0.6 mm'; received none."
         )
     _read(words, "diameter", "diameter", "--wire")  # better said before the file is read
-    vessel = Vessel.read(path, units, entrance=spot(entrance, "--entrance"), scale=scale)
+    vessel = Vessel.read(source, units, **options)
     lumen = vessel.lumen()
-    return lumen, plan(lumen, _wire(words, lumen), demands=_demands(words, Demands()), watch=watch)
+    demands = _demands(words, Demands())
+    return Work(lumen, _wire(words, lumen), demands, None, vessel.record(), vessel)
 
 
-def of_scenario(
-    scenario: Scenario, words: Words, *, watch: Callable[[str], None] | None
-) -> tuple[Lumen, list[Prospect]]:
-    """Plan for a scenario: its lumen, its wire, its wall, and what its steering must keep to."""
+def of_scenario(scenario: Scenario, words: Words) -> Work:
+    """What to plan for a scenario: its lumen, its wire, its wall, and its steering's demands."""
     job = scenario.build()
     system = job.simulation.system
     lumen, wire = system.lumen, system.wire
@@ -107,47 +116,82 @@ def of_scenario(
         if (value := getattr(scenario.navigate, name, None)) is not None
     }
     demands = _demands(words, Demands(**steered))
-    return lumen, plan(lumen, wire, demands=demands, contact=system.contact, watch=watch)
+    return Work(lumen, wire, demands, system.contact, scenario.notes, None)
 
 
-def table(prospects: Sequence[Prospect]) -> Table:
-    """The table for the terminal."""
-    from rich.markup import escape
-    from rich.table import Table
+def outlets(work: Work, targets: Sequence[str]) -> tuple[str, ...]:
+    """The outlets that are asked for, each once; all of them if none is."""
+    known = work.lumen.outlets
+    if not targets or not known:
+        return known or ("outlet",)
+    if work.vessel is not None:
+        found = [work.vessel.outlet(spot(target, "--target")) for target in targets]
+        return tuple(dict.fromkeys(name for name in found if name is not None))
+    names = (one_of("magwire plan", "--target", meant(name, known), known) for name in targets)
+    return tuple(dict.fromkeys(names))
 
-    patch = next((p.force_patch for p in prospects if math.isfinite(p.force_patch)), 0.0)
-    shown = Table(box=None, pad_edge=False, header_style="bold")
-    for head in (
-        "outlet",
-        "reached",
-        "tip at [mm]",
-        "fed [mm]",
-        "field [mT]",
-        "tip force [mN]",
-        "wire force [mN]",
-        f"on {1e3 * patch:.3g} mm [mN]" if patch else "on a patch [mN]",
-        "push [mN]",
-    ):
-        shown.add_column(escape(head), justify="left" if head in ("outlet", "reached") else "right")
-    for head in ("clearance [mm]", "narrowest [mm]", "tightest bend [mm]"):
-        shown.add_column(escape(head), justify="right")
-    for p in prospects:
-        bend = "straight" if math.isinf(p.bend.radius) else f"{1e3 * p.bend.radius:.3g}"
-        shown.add_row(
-            escape(p.outlet),
-            "[green]yes[/]" if p.reached else "[red]no[/]",
-            f"{1e3 * p.came:.1f} of {1e3 * p.length:.1f}",
-            f"{1e3 * p.fed:.1f}",
-            f"{1e3 * p.peak_field:.3g}",
-            f"{1e3 * p.tip_force:.3g}",
-            f"{1e3 * p.wall_force:.3g}",
-            f"{1e3 * p.patch_force:.3g}",
-            f"{1e3 * p.push_force:.3g}",
-            "" if math.isnan(p.clearance) else f"{1e3 * p.clearance:.3g}",
-            f"{p.narrowest * 1e3:.3g} at {p.narrowest_at * 1e3:.4g}",
-            bend if math.isinf(p.bend.radius) else f"{bend} at {p.bend.arc * 1e3:.4g}",
+
+def carried_out(work: Work, names: Sequence[str]) -> Iterator[Prospect]:
+    """Plan for one outlet after the other."""
+    for name in names:
+        yield from plan(
+            work.lumen,
+            work.wire,
+            demands=work.demands,
+            contact=work.contact,
+            outlets=(name,) if work.lumen.outlets else (),
         )
-    return shown
+
+
+HEADS = {
+    "outlet": 0,
+    "reached": 7,
+    "tip at [mm]": 15,
+    "fed [mm]": 8,
+    "field [mT]": 10,
+    "tip force [mN]": 14,
+    "wire force [mN]": 15,
+    "patch force [mN]": 16,
+    "push [mN]": 9,
+    "clearance [mm]": 14,
+    "narrowest [mm]": 14,
+    "tightest bend [mm]": 18,
+}
+"""Heads of the table in the terminal, and how wide the columns are; the first is as its names."""
+
+
+def head(names: Sequence[str]) -> str:
+    """The first row of the table, for outlets of these names."""
+    return _line(list(HEADS), names)
+
+
+def row(p: Prospect, names: Sequence[str]) -> str:
+    """The row of an outlet, as it is printed when that is done."""
+    bend = "straight" if math.isinf(p.bend.radius) else f"{1e3 * p.bend.radius:.3g}"
+    at = "" if math.isinf(p.bend.radius) else f" at {p.bend.arc * 1e3:.4g}"
+    cells = [
+        p.outlet,
+        "yes" if p.reached else "no",
+        f"{1e3 * p.came:.1f} of {1e3 * p.length:.1f}",
+        f"{1e3 * p.fed:.1f}",
+        f"{1e3 * p.peak_field:.3g}",
+        f"{1e3 * p.tip_force:.3g}",
+        f"{1e3 * p.wall_force:.3g}",
+        f"{1e3 * p.patch_force:.3g}",
+        f"{1e3 * p.push_force:.3g}",
+        "" if math.isnan(p.clearance) else f"{1e3 * p.clearance:.3g}",
+        f"{p.narrowest * 1e3:.3g} at {p.narrowest_at * 1e3:.4g}",
+        bend + at,
+    ]
+    return _line(cells, names)
+
+
+def _line(cells: Sequence[str], names: Sequence[str]) -> str:
+    first = max(len("outlet"), *map(len, names))
+    rest = zip(cells[1:], list(HEADS.values())[1:], strict=True)
+    sides = "<" + ">" * len(cells)
+    texts = [f"{cell:{side}{width}}" for (cell, width), side in zip(rest, sides, strict=False)]
+    return "  ".join([f"{cells[0]:<{first}}", *texts]).rstrip()
 
 
 def reasons(prospects: Sequence[Prospect]) -> list[str]:
@@ -156,7 +200,7 @@ def reasons(prospects: Sequence[Prospect]) -> list[str]:
 
 
 def save(lumen: Lumen, prospects: Sequence[Prospect], folder: Path) -> list[Path]:
-    """Write the table as CSV and JSON, and the map; the files."""
+    """Write the table as CSV and JSON, as far as it has come, and the map; the files."""
     from magwire.plot import prospects as maps
 
     rows = [_row(p) for p in prospects]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -95,6 +95,7 @@ def plan(
     demands: Demands | None = None,
     contact: Barrier | None = None,
     watch: Callable[[str], None] | None = None,
+    outlets: Sequence[str] = (),
 ) -> list[Prospect]:
     """Steer a wire to every outlet of a lumen, by equilibria (P-16, P-22).
 
@@ -111,6 +112,8 @@ def plan(
         if left out.
     watch
         Called with the name of each outlet before it is tried.
+    outlets
+        Names of the outlets to try; all of them if left out.
 
     Returns
     -------
@@ -127,7 +130,7 @@ def plan(
     if not wire.moment_per_length > 0.0:
         raise InputError("Input wire of plan must be magnetised; received none.")
     found = []
-    for name in lumen.outlets or ("outlet",):
+    for name in outlets or lumen.outlets or ("outlet",):
         if watch is not None:
             watch(name)
         there = replace(lumen, target=name) if lumen.outlets else lumen

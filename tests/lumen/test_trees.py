@@ -340,11 +340,11 @@ FAULTS: dict[str, Callable[[], Any]] = {
             "loop": straight([0.02, 0, 0], [0.04, 0.015, 0], [0.06, 0, 0], [0.08, -0.015, 0]),
         }
     ),
-    "the outlet 'short' overlaps 'stem' by": lambda: Lumen.tree(
-        {"stem": STEM, "short": straight([0.02, 0, 0], [0.025, 0.004, 0])}
+    "the outlet 'short' lies inside of 'stem'": lambda: Lumen.tree(
+        {"stem": STEM, "short": straight([0.02, 0, 0], [0.025, 0.002, 0])}
     ),
-    "the outlet 'stem' overlaps 'past' by": lambda: Lumen.tree(
-        {"stem": STEM, "past": straight([0.02, 0, 0], [0.06, 0.012, 0], [0.1, 0.004, 0.004])}
+    "the outlet 'stem' lies inside of 'past'": lambda: Lumen.tree(
+        {"stem": STEM, "past": straight([0.02, 0, 0], [0.06, 0.012, 0], [0.1, 0.002, 0.001])}
     ),
     "'back' turns by 135 degrees from 'stem', which is too sharp": lambda: Lumen.tree(
         {"stem": STEM, "back": straight([0.06, 0, 0], [0.0, 0.06, 0])}

@@ -3,43 +3,44 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from magwire.cli.folders import check_free, writing_to
 from magwire.cli.options import Flag
+from magwire.cli.reading import USUAL, Points, Reading, source_of
 from magwire.cli.words import CommandError, say, say_if_compiling
+
+if TYPE_CHECKING:
+    from magwire.plan_commands import Work
 
 
 def plan_outlets(
-    source: str,
-    /,
-    *,
+    *sources: str,
     wire: str | None = None,
+    target: Points = (),
     max_field: str | None = None,
-    units: str | None = None,
-    entrance: str | None = None,
-    scale: float | None = None,
+    reading: Reading = USUAL,
     youngs_modulus: str | None = None,
     magnetization: str | None = None,
     magnetized_tip: str | None = None,
     out: Path | None = None,
     force: Flag = False,
 ) -> int:
-    """Steer a wire to every outlet, by equilibria: table, and with --out files and a map.
+    """Steer a wire to outlets, by equilibria: a row for each, and with --out files and a map.
 
     Parameters
     ----------
-    source
-        Centrelines or a surface of a vessel; or a scenario, by its name or its TOML file.
+    sources
+        Centrelines or a surface of a vessel, a folder or several files of one branch each; or a
+        scenario, by its name or its TOML file.
     wire
         Diameter of the wire, such as "0.6 mm"; of a scenario, its own if left out.
+    target
+        Outlets to try, by their names or numbers, or points; all of them if left out.
     max_field
         Largest flux density, such as "50 mT".
-    units
-        Of a vessel's file, such as mm; needed unless it states one.
-    entrance
-        Of a vessel's file: name or number of an end, or a point such as "1 mm, 2 mm, 3 mm".
-    scale
-        Of a vessel's file: factor on all lengths.
+    reading
+        How a vessel's file is read.
     youngs_modulus
         With a vessel's file: of the wire, "3 MPa" if left out.
     magnetization
@@ -47,14 +48,12 @@ def plan_outlets(
     magnetized_tip
         With a vessel's file: length of the magnet; ten radii of the wire if left out.
     out
-        Folder for plan.csv, plan.json and the map plan.png; nothing is written if left out.
+        Folder for plan.csv, plan.json and the map plan.png, renewed as each outlet is done; nothing
+        is written if left out.
     force
         Overwrite what is there.
     """
-    from rich.console import Console
-
     from magwire import plan_commands as commands
-    from magwire.progress import pieces
     from magwire.scenario import load, names
 
     words = {
@@ -67,39 +66,47 @@ def plan_outlets(
     if out is not None:  # better said before the work than after it
         check_free(out, force=force)
     say_if_compiling()
-    with pieces(1) as begin:
-        if source in names() or Path(source).suffix == ".toml":
-            given = {
-                "--units": units,
-                "--entrance": entrance,
-                "--scale": scale,
-                "--youngs-modulus": youngs_modulus,
-                "--magnetization": magnetization,
-                "--magnetized-tip": magnetized_tip,
-            }
-            for option, value in given.items():
-                if value is not None:
-                    raise CommandError(
-                        f"Option {option} is for a vessel's file; received {value!r}."
-                    )
-            lumen, prospects = commands.of_scenario(load(source), words, watch=begin)
-        else:
-            lumen, prospects = commands.of_file(
-                Path(source),
-                words,
-                units=units,
-                entrance=entrance,
-                scale=1.0 if scale is None else scale,
-                watch=begin,
-            )
-    console = Console()
-    if not console.is_terminal:
-        console = Console(width=commands.FILE_WIDTH)
-    console.print(commands.table(prospects))
-    for line in commands.reasons(prospects):
-        say(line)
-    if out is not None:
-        with writing_to(out):
-            for path in commands.save(lumen, prospects, out):
-                say(str(path))
+    if len(sources) == 1 and (sources[0] in names() or Path(sources[0]).suffix == ".toml"):
+        reading.refuse_any()
+        _refuse_any(words)
+        work = commands.of_scenario(load(sources[0]), words)
+    else:
+        source = source_of(tuple(map(Path, sources)))
+        work = commands.of_file(source, reading.units, words, reading.options())
+    _carry_out(work, commands.outlets(work, target), out)
     return 0
+
+
+def _refuse_any(words: dict[str, str | None]) -> None:
+    """Refuse options of a wire where a scenario has one."""
+    options = {
+        "modulus": "--youngs-modulus",
+        "magnetization": "--magnetization",
+        "magnet": "--magnetized-tip",
+    }
+    for name, option in options.items():
+        if words[name] is not None:
+            raise CommandError(f"Option {option} is for a vessel's file; received {words[name]!r}.")
+
+
+def _carry_out(work: Work, names: tuple[str, ...], out: Path | None) -> None:
+    """Plan for one outlet after the other; say and write each as it is done."""
+    from magwire import plan_commands as commands
+    from magwire.progress import pieces
+
+    for note in work.notes:
+        say(note)
+    say(commands.head(names))
+    done, files = [], []
+    with pieces(len(names)) as begin:
+        begin(names[0])
+        for prospect in commands.carried_out(work, names):
+            done.append(prospect)
+            say(commands.row(prospect, names))
+            if out is not None:
+                with writing_to(out):
+                    files = commands.save(work.lumen, done, out)
+            if len(done) < len(names):
+                begin(names[len(done)])
+    for line in [*commands.reasons(done), *map(str, files)]:
+        say(line)

@@ -102,6 +102,8 @@ def carry_out(
     """Run a scenario and leave all that comes of it in a folder; the exit status."""
     check_free(folder, force=force)
     job = described.build()
+    for note in described.notes:
+        say(note)
     with writing_to(folder):
         for name in (RESULT, PASSIVE, SCHEDULE, *FIGURES):
             (folder / name).unlink(missing_ok=True)

@@ -7,43 +7,32 @@ from pathlib import Path
 from cyclopts import App
 
 from magwire.cli.options import Flag
-from magwire.cli.words import say
+from magwire.cli.reading import USUAL, Point, Reading, source_of
+from magwire.cli.words import complain, say
 
 lumen = App(name="lumen", help="Look into a vessel's file, or write it anew.")
 
 
 @lumen.command(name="inspect")
 def inspect_lumen(
-    file: Path,
-    /,
-    *,
-    units: str | None = None,
-    entrance: str | None = None,
-    radius: str | None = None,
-    scale: float = 1.0,
-    smoothing: float = 0.5,
+    *files: Path,
+    reading: Reading = USUAL,
     wire: str | None = None,
     youngs_modulus: str | None = None,
     max_force: str | None = None,
     compare: Path | None = None,
     picture: Path | None = None,
-) -> None:
+) -> int:
     """Say what is in a file of centrelines or of a surface, and what is wrong with it.
+
+    Ends with status 1 and the same sentence where a run would refuse the vessel.
 
     Parameters
     ----------
-    file
-        The file.
-    units
-        Unit of its numbers, such as mm; guessed if left out.
-    entrance
-        Name or number of an end, or a point such as "1 mm, 2 mm, 3 mm"; the widest end if left out.
-    radius
-        Name of the array that holds the radius, or one radius for all, such as "2 mm".
-    scale
-        Factor on all lengths.
-    smoothing
-        Length in radii; shorter waves of the centrelines are taken out.
+    files
+        The file; or a folder of files, or several files, of one branch each.
+    reading
+        How a vessel's file is read.
     wire
         Diameter of a wire, such as "0.4 mm", to say which outlets it gets to.
     youngs_modulus
@@ -57,71 +46,48 @@ def inspect_lumen(
     """
     from magwire import lumen_commands as commands
 
-    lines, vessel = commands.inspect(
-        file,
-        units=units,
+    found = commands.inspect(
+        source_of(files),
+        units=reading.units,
         wire={"diameter": wire, "modulus": youngs_modulus, "force": max_force},
         other=compare,
-        entrance=commands.spot(entrance, "--entrance"),
-        radius=commands.radius_of(radius),
-        scale=scale,
-        smoothing=smoothing,
+        **reading.options(),
     )
-    for line in lines:
+    for line in found.lines:
         say(line)
     if picture is not None:
-        commands.picture(vessel, picture, wire)
+        commands.picture(found.vessel, picture, wire)
         say(str(picture))
+    if found.refusal:
+        complain(found.refusal)
+    return 1 if found.refusal else 0
 
 
 @lumen.command(name="convert")
 def convert_lumen(
-    file: Path,
-    out: Path,
-    /,
-    *,
-    units: str | None = None,
-    entrance: str | None = None,
-    target: str | None = None,
-    radius: str | None = None,
-    scale: float = 1.0,
-    smoothing: float = 0.5,
+    *files: Path,
+    reading: Reading = USUAL,
+    target: Point = None,
     force: Flag = False,
 ) -> None:
     """Write the smooth tubes of a file to another one.
 
     Parameters
     ----------
-    file
-        Centrelines or a surface.
-    out
-        File to write: .vtp as VMTK does, in millimetres; .nc (NetCDF), in metres; or .toml, the
-        lumen's table of a scenario.
-    units
-        Unit of the numbers in the file, such as mm; needed unless it states one.
-    entrance
-        Name or number of an end, or a point such as "1 mm, 2 mm, 3 mm"; the widest end if left out.
+    files
+        Centrelines or a surface; and last the file to write: .vtp as VMTK does, in millimetres; .nc
+        (NetCDF), in metres; or .toml, the lumen's table of a scenario.
+    reading
+        How a vessel's file is read.
     target
-        The same, of the scenario's table; the first outlet if left out.
-    radius
-        Name of the array that holds the radius, or one radius for all, such as "2 mm".
-    scale
-        Factor on all lengths.
-    smoothing
-        Length in radii; shorter waves of the centrelines are taken out.
+        Name or number of an end, or a point, of the scenario's table; the first outlet if left out.
     force
         Overwrite what is there.
     """
     from magwire import lumen_commands as commands
-    from magwire.lumen.vessel import Vessel
+    from magwire.vessel import Vessel
 
-    vessel = Vessel.read(
-        file,
-        units,
-        entrance=commands.spot(entrance, "--entrance"),
-        radius=commands.radius_of(radius),
-        scale=scale,
-        smoothing=smoothing,
-    )
+    source, out = source_of(files[:-1]), files[-1]
+    vessel = Vessel.read(source, reading.units, **reading.options())
     commands.convert(vessel, commands.spot(target, "--target"), out, force=force)
     say(str(out))

@@ -17,6 +17,7 @@ class CommandError(MagwireError):
 def say(text: str = "") -> None:
     """A line on standard output."""
     sys.stdout.write(text + "\n")
+    sys.stdout.flush()  # it is read as it comes, also where that is no terminal
 
 
 def complain(text: str) -> None:

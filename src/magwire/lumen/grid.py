@@ -148,7 +148,7 @@ def _ridges(
     near: NDArray[np.uint8],
 ) -> NDArray[np.int64]:
     """Voxel and sample of each seed, shape (n, 2)."""
-    found = np.empty((4 * int(near.sum()) + 1024, 2), dtype=np.int64)
+    found = np.empty((8 * int(near.sum()) + 1024, 2), dtype=np.int64)
     while True:
         state = np.zeros((len(best), 4), dtype=np.float32)
         state[:, 0] = -1.0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -17,12 +17,15 @@ from magwire.kernels.centreline import LumenArrays
 from magwire.lumen import shapes
 from magwire.lumen.branch import Bend, Branch
 from magwire.lumen.bulge import largest_bulge
+from magwire.lumen.forks import join_ways
 from magwire.lumen.grid import scaled
+from magwire.lumen.lazy import Lazy
+from magwire.lumen.names import meant
 from magwire.lumen.search import Search
 from magwire.lumen.tree import join
 
 if TYPE_CHECKING:
-    from magwire.lumen.vessel import Spot
+    from magwire.vessel import Spot
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int32]
@@ -67,11 +70,12 @@ class Lumen:
                     f"{type(branch).__name__}."
                 )
         object.__setattr__(self, "branches", tuple(branches))
-        object.__setattr__(self, "paths", MappingProxyType(dict(self.paths)))
+        paths = self.paths if isinstance(self.paths, Lazy) else MappingProxyType(dict(self.paths))
+        object.__setattr__(self, "paths", paths)
         if self.target is None and self.paths:
             object.__setattr__(self, "target", self.outlets[0])
         if self.target is not None:
-            self._known("target", self.target)
+            object.__setattr__(self, "target", self._known("target", self.target))
 
     @classmethod
     def straight(cls, length: float, radius: float) -> Lumen:
@@ -270,9 +274,45 @@ class Lumen:
         InputError
             If the file cannot be used: in one sentence, why.
         """
-        from magwire.lumen.vessel import Vessel
+        from magwire.vessel import Vessel
 
         return Vessel.read(path, units, **options).lumen(target)
+
+    @classmethod
+    def ways(
+        cls,
+        balls: Mapping[str, ArrayLike],
+        *,
+        target: str | None = None,
+        blend: float | None = None,
+    ) -> Lumen:
+        """Tree of ways from one entrance, each as points of its centreline with radii.
+
+        It is made in a time that grows with the branches, not with the sum of all ways, as far as
+        ways have the same points where they are one.
+
+        Parameters
+        ----------
+        balls
+            Points and radii of each way by the name of its outlet, shape (n, 4) [m].
+        target, blend
+            As of ``Lumen.tree``.
+
+        Raises
+        ------
+        InputError
+            If the ways do not start at one place, or as of ``Lumen.tree``.
+        """
+        owner = "Lumen.ways"
+        if blend is not None:
+            nonnegative(owner, "blend", blend, "m")
+        given = {name: array(owner, "balls", rows, (None, 4), "m") for name, rows in balls.items()}
+        if not given:
+            raise InputError(
+                "Input balls of Lumen.ways must have one entry at least; received none."
+            )
+        walls, paths = join_ways(given, blend)
+        return cls(walls, paths=paths, target=target)
 
     @classmethod
     def open_space(cls) -> Lumen:
@@ -291,7 +331,7 @@ class Lumen:
         if nonnegative("Lumen.with_entry", "length", length, "m") == 0.0 or not self.branches:
             return self
         first = self.branches[0].with_entry(length)
-        paths = {name: path.with_entry(length) for name, path in self.paths.items()}
+        paths = Lazy({name: partial(_entered, self.paths, name, length) for name in self.paths})
         return replace(self, branches=(first, *self.branches[1:]), paths=paths)
 
     @property
@@ -419,12 +459,13 @@ class Lumen:
         )
 
     @cached_property
-    def _ways(self) -> dict[str, Lumen]:
+    def _ways(self) -> Mapping[str, Lumen]:
         """Every path as a lumen."""
-        return {name: Lumen((path,)) for name, path in self.paths.items()}
+        return Lazy({name: partial(_alone, self.paths, name) for name in self.paths})
 
     def _known(self, name: str, outlet: str) -> str:
         """The name of an outlet, checked."""
+        outlet = meant(outlet, tuple(self.paths))
         if outlet in self.paths:
             return outlet
         words = ", ".join(f"'{known}'" for known in self.paths)
@@ -437,6 +478,14 @@ class Lumen:
     def _search(self) -> Search:
         """Where points are, in all branches."""
         return Search(self.branches)
+
+
+def _entered(paths: Mapping[str, Branch], name: str, length: float) -> Branch:
+    return paths[name].with_entry(length)
+
+
+def _alone(paths: Mapping[str, Branch], name: str) -> Lumen:
+    return Lumen((paths[name],))
 
 
 def _lines(branches: Mapping[str, Lumen]) -> dict[str, Branch]:

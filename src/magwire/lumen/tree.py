@@ -29,14 +29,16 @@ STEEPNESS = 5.0  # that length over what the radius gains, at least
 ROUNDING = 1.6  # bend radius of a path around the corner of a junction, over the parent's radius
 MOUTH = 1.5  # how far from the entrance a branch leaves that has a wall of its own from there on
 OFF_AXIS = 0.5  # farthest from its parent's centreline that a branch starts, over the radius
+BESIDE = 1.0  # how far an outlet is off the centreline of another tube, at least, over its radius
 DENSITY = 8.0  # samples per radius of arc length
+SPARSE = 4  # of these samples, how many there are for one that is checked
 
 
 class Tree(NamedTuple):
     """The wall's branches and the centrelines from the entrance to each outlet, by its name."""
 
     branches: tuple[Branch, ...]
-    paths: dict[str, Branch]
+    paths: Mapping[str, Branch]
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +57,28 @@ class _Trace:
     def _samples(self) -> KDTree:
         from scipy.spatial import KDTree
 
-        return KDTree(self.curve.at(self.arcs)[:, :3])
+        return KDTree(self.balls[:, :3])
+
+    @cached_property
+    def balls(self) -> Array:
+        """Centre and radius at the samples, shape (n, 4) [m]."""
+        return self.curve.at(self.arcs)
+
+    def roughly(self, points: Array, within: float) -> tuple[Array, Array]:
+        """Distance of points from the nearest piece between samples, and its radius, shapes (n,).
+
+        Infinite, with some radius, where that is more than ``within`` [m].
+        """
+        distance, nearest = self._samples.query(points, distance_upper_bound=within)
+        here = np.minimum(nearest, len(self.balls) - 1)
+        for beside in (-1, 1):
+            other = np.clip(here + beside, 0, len(self.balls) - 1)
+            a, along = self.balls[here, :3], self.balls[other, :3] - self.balls[here, :3]
+            t = np.sum((points - a) * along, axis=1)
+            t = np.clip(t / np.maximum(np.sum(along * along, axis=1), 1e-300), 0.0, 1.0)
+            off = np.linalg.norm(points - a - t[:, None] * along, axis=1)
+            distance = np.where(np.isfinite(distance), np.minimum(distance, off), distance)
+        return distance, self.balls[here, 3]
 
     def nearest(self, points: Array) -> tuple[Array, Array, Array]:
         """Distance, arc parameter and radius at the nearest point, shapes (n,) [m]."""
@@ -90,24 +113,52 @@ def join(lines: Mapping[str, Branch], width: float | None) -> Tree:
     """
     names = list(lines)
     first = lines[names[0]]
-    walls, paths = [first], {names[0]: first}
+    walls, paths = Walls(), {names[0]: first}
+    walls.add(names[0], first)
     for name in names[1:]:
         wall, path = _attach(name, lines[name], walls, paths, width)
-        walls.append(wall)
+        walls.add(name, wall)
         paths[name] = path
-    _check_courses(names, walls)
-    return Tree(tuple(walls), paths)
+    check_courses(walls)
+    return Tree(tuple(walls.branches), paths)
+
+
+class Walls:
+    """The walls of a tree so far, to be searched by place."""
+
+    def __init__(self) -> None:
+        self.branches: list[Branch] = []
+        self.traces: list[_Trace] = []
+        self._boxes = np.zeros((16, 2, 3))
+
+    def add(self, name: str, wall: Branch) -> None:
+        """One more wall."""
+        reach = float(wall.radius.max())
+        count = len(self.branches)
+        if count == len(self._boxes):
+            self._boxes = np.concatenate([self._boxes, np.zeros_like(self._boxes)])
+        self._boxes[count, 0] = wall.points.min(axis=0) - reach
+        self._boxes[count, 1] = wall.points.max(axis=0) + reach
+        self.branches.append(wall)
+        self.traces.append(_Trace(name, wall.curve))
+
+    def near(self, points: Array, reach: float) -> list[_Trace]:
+        """Those that may be within ``reach`` [m] of points, shape (n, 3)."""
+        low, high = points.min(axis=0) - reach, points.max(axis=0) + reach
+        boxes = self._boxes[: len(self.branches)]
+        touching = np.flatnonzero(((boxes[:, 0] <= high) & (boxes[:, 1] >= low)).all(axis=1))
+        return [self.traces[i] for i in touching.tolist()]
 
 
 def _attach(
-    name: str, line: Branch, walls: list[Branch], paths: dict[str, Branch], width: float | None
+    name: str, line: Branch, walls: Walls, paths: dict[str, Branch], width: float | None
 ) -> tuple[Branch, Branch]:
     """Wall and path of one more branch."""
     ways = [_Trace(other, path.curve) for other, path in paths.items()]
     first = next(iter(paths.values()))
     near = SHARED * float(first.radius[0])
     if np.linalg.norm(line.entrance - first.entrance) <= near:
-        start = _leaves(name, line, ways)
+        start = leaves(name, line, ways)
         if start < MOUTH * float(line.radius[0]):  # its cap would stand in the entrance
             return replace(
                 line, blend=BLEND * float(line.radius[0]) if width is None else width
@@ -116,13 +167,49 @@ def _attach(
         arcs = np.append(start, arcs[arcs > start + 0.5 * arcs[1]])
     else:
         path, arcs = _path(name, line, ways, paths), sampled(line.curve)
-    balls = line.curve.at(arcs)
-    others = [_Trace("", wall.curve) for wall in walls]
+    tangents = line.curve.at(arcs[[0, -1]], 1)[:, :3]
+    own = Line(arcs - arcs[0], line.curve.at(arcs), tangents, line.open_end)
+    return grown(name, own, walls, width), path
+
+
+class Line(NamedTuple):
+    """A tube from where it leaves others.
+
+    Attributes
+    ----------
+    arcs, balls
+        Arc parameter [m] from there, shape (n,), and centre and radius [m], shape (n, 4).
+    tangents
+        At its begin and end, shape (2, 3).
+    open_end
+        Whether its end is open.
+    """
+
+    arcs: Array
+    balls: Array
+    tangents: Array
+    open_end: bool
+
+
+def grown(name: str, line: Line, walls: Walls, width: float | None) -> Branch:
+    """The wall of a tube that leaves other walls.
+
+    Parameters
+    ----------
+    name, line
+        Of the tube.
+    walls
+        Those before it.
+    width
+        Width over which it blends into them [m]; if None, by its radius where it leaves.
+    """
+    arcs, balls = line.arcs, line.balls
+    others = walls.near(balls[:1, :3], 0.0) or walls.traces
     if width is None:
-        width = BLEND * float(balls[arcs - arcs[0] <= JUNCTION * balls[0, 3], 3].min())
-    radius = _run_in(name, arcs - arcs[0], balls, others, width)
-    begin, end = line.curve.at(arcs[[0, -1]], 1)[:, :3]
-    wall = Branch(
+        width = BLEND * float(balls[arcs <= JUNCTION * balls[0, 3], 3].min())
+    radius = _run_in(name, arcs, balls, others, width)
+    begin, end = line.tangents
+    return Branch(
         balls[:, :3],
         radius,
         begin_tangent=begin,
@@ -131,11 +218,10 @@ def _attach(
         open_end=line.open_end,
         blend=width,
     )
-    return wall, path
 
 
-def _leaves(name: str, line: Branch, ways: list[_Trace]) -> float:
-    """Arc parameter where a tube from the entrance leaves the ones before it [m]."""
+def leaves(name: str, line: Branch, ways: list[_Trace]) -> float:
+    """Arc parameter where a tube leaves the ones before it, on which it starts [m]."""
     arcs = sampled(line.curve)
     points = line.curve.at(arcs)[:, :3]
     apart = np.full(len(arcs), np.inf)
@@ -144,7 +230,7 @@ def _leaves(name: str, line: Branch, ways: list[_Trace]) -> float:
         apart = np.minimum(apart, distance / radius)
     away = np.flatnonzero(apart > SHARED)
     if len(away) == 0:
-        raise _refuse(f"'{name}' runs along '{ways[0].name}' to its end")
+        raise refusal(f"'{name}' runs along '{ways[0].name}' to its end")
     return float(arcs[max(int(away[0]) - 1, 0)])
 
 
@@ -163,7 +249,7 @@ def _path(name: str, line: Branch, ways: list[_Trace], paths: dict[str, Branch])
     cut = min(wanted, centre[3] + line.radius[0], 0.5 * line.length)
     cut = max(cut, 0.5 * sampled(line.curve)[1])
     if cut >= arc:
-        raise _refuse(f"'{name}' leaves '{way.name}' too close to the entrance")
+        raise refusal(f"'{name}' leaves '{way.name}' too close to the entrance")
     before, after = sampled(parent), sampled(line.curve)
     before = np.append(before[before < arc - 1.1 * cut], arc - cut)
     after = np.append(cut, after[after > 1.1 * cut])
@@ -172,7 +258,7 @@ def _path(name: str, line: Branch, ways: list[_Trace], paths: dict[str, Branch])
     try:
         return Branch(balls[:, :3], balls[:, 3], begin_tangent=tangents[0], end_tangent=tangents[1])
     except InputError:
-        raise _refuse(
+        raise refusal(
             f"'{name}' turns by {degrees(turn):.0f} degrees from '{way.name}', which is too sharp"
         ) from None
 
@@ -244,7 +330,7 @@ def _run_in(name: str, arcs: Array, balls: Array, others: list[_Trace], width: f
 def _check_width(name: str, wide: float, parent: float) -> None:
     """Refuse a branch that is wider than what it leaves."""
     if wide > WIDER * parent:
-        raise _refuse(f"'{name}' is wider ({wide:.6g} m) than what it leaves ({parent:.6g} m)")
+        raise refusal(f"'{name}' is wider ({wide:.6g} m) than what it leaves ({parent:.6g} m)")
 
 
 def _ramp(t: Array) -> Array:
@@ -253,34 +339,38 @@ def _ramp(t: Array) -> Array:
     return np.asarray(t**3 * (10.0 + t * (6.0 * t - 15.0)))
 
 
-def _check_courses(names: list[str], walls: list[Branch]) -> None:
-    """Refuse branches that never leave the others, or come back to them."""
-    traces = [_Trace(name, wall.curve) for name, wall in zip(names, walls, strict=True)]
-    for i, trace in enumerate(traces):
-        balls = trace.curve.at(trace.arcs)
+def check_courses(walls: Walls) -> None:
+    """Refuse branches that come back to others, and outlets inside of others."""
+    order = {id(trace): i for i, trace in enumerate(walls.traces)}
+    for i, trace in enumerate(walls.traces):
+        balls = trace.balls[::SPARSE]
+        wide = float(balls[:, 3].max())
         free = np.full(len(balls), np.inf)
-        for other in traces[:i]:
-            distance, _, radius = other.nearest(balls[:, :3])
-            free = np.minimum(free, distance - radius - balls[:, 3])
+        for other in walls.near(balls[:, :3], wide):
+            if order[id(other)] < i:
+                reach = wide + float(other.balls[:, 3].max())
+                distance, radius = other.roughly(balls[:, :3], reach)
+                free = np.minimum(free, distance - radius - balls[:, 3])
         clear = np.flatnonzero(free > 0.0)
         if len(clear) > 0:
             back = clear[0] + np.flatnonzero(free[clear[0] :] < -balls[clear[0] :, 3])
             if len(back) > 0:
                 x, y, z = balls[back[0], :3]
-                raise _refuse(
+                raise refusal(
                     f"'{trace.name}' comes back to another branch near "
                     f"({x:.6g}, {y:.6g}, {z:.6g}) m"
                 )
-        for other in traces:
-            distance, _, radius = other.nearest(balls[-1:, :3])
-            overlap = float(radius[0] + balls[-1, 3] - distance[0])
-            if other is not trace and overlap > 0.0:
-                raise _refuse(
-                    f"the outlet '{trace.name}' overlaps '{other.name}' by {overlap:.6g} m"
+        end = trace.balls[-1:, :3]
+        for other in walls.near(end, 0.0):
+            distance, _, radius = other.nearest(end)
+            if other is not trace and distance[0] < BESIDE * radius[0]:
+                raise refusal(
+                    f"the outlet '{trace.name}' lies inside of '{other.name}', {distance[0]:.6g} m "
+                    f"from its centreline, with radius {radius[0]:.6g} m there"
                 )
 
 
-def _refuse(what: str) -> InputError:
+def refusal(what: str) -> InputError:
     """Fault of the branches' course."""
     return InputError(
         "Input branches of Lumen.tree must leave those before them, no wider than them, and end "

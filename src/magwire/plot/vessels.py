@@ -4,23 +4,43 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from numpy.typing import NDArray
 
 from magwire.plot import shapes, style
 
 Array = NDArray[np.float64]
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#22303c")
+TRIANGLES = 20_000  # of a surface that are drawn
 HEIGHT = 92.0
 """Height of the figure [mm]."""
 
 
-def draw(tubes: Mapping[str, tuple[Array, Array]], wire: float | None = None) -> Figure:
+class Mesh(Protocol):
+    """Triangles: points, shape (n, 3) [m], and their indices, shape (m, 3)."""
+
+    @property
+    def points(self) -> Array:
+        """Corners of the triangles."""
+        ...
+
+    @property
+    def triangles(self) -> NDArray[np.int64]:
+        """Which corners each has."""
+        ...
+
+
+def draw(
+    tubes: Mapping[str, tuple[Array, Array]],
+    wire: float | None = None,
+    surface: Mesh | None = None,
+) -> Figure:
     """Draw the tubes of a vessel.
 
     Parameters
@@ -29,6 +49,8 @@ def draw(tubes: Mapping[str, tuple[Array, Array]], wire: float | None = None) ->
         Points, shape (n, 3), and radius, shape (n,), of the way to each outlet by its name [m].
     wire
         Radius of a wire to compare with [m].
+    surface
+        The vessel's surface, to be drawn around its tubes.
 
     Returns
     -------
@@ -38,19 +60,25 @@ def draw(tubes: Mapping[str, tuple[Array, Array]], wire: float | None = None) ->
     with mpl.rc_context(style.RC):
         figure = Figure(figsize=(style.WIDTH * style.MM, HEIGHT * style.MM))
         FigureCanvasAgg(figure)
-        draw_into(figure, tubes, wire)
+        draw_into(figure, tubes, wire, surface)
     return figure
 
 
 def draw_into(
-    figure: Figure, tubes: Mapping[str, tuple[Array, Array]], wire: float | None = None
+    figure: Figure,
+    tubes: Mapping[str, tuple[Array, Array]],
+    wire: float | None = None,
+    surface: Mesh | None = None,
 ) -> None:
     """Draw the tubes of a vessel into an empty figure; what they are is said in ``draw``."""
     with mpl.rc_context(style.RC):
         figure.set_layout_engine("constrained")
         halves: Any = figure.subfigures(1, 2, width_ratios=(1.0, 1.0))
         parts = [shapes.Branch(1e3 * p, 1e3 * r) for p, r in tubes.values()]
-        _draw_tubes(halves[0].add_subplot(projection="3d", computed_zorder=False), parts, tubes)
+        space = halves[0].add_subplot(projection="3d", computed_zorder=False)
+        if surface is not None:
+            _draw_surface(space, surface)
+        _draw_tubes(space, parts, tubes)
         axes = halves[1].subplots()
         for i, (name, part) in enumerate(zip(tubes, parts, strict=True)):
             axes.plot(shapes.arcs(part), part.radius, color=COLOURS[i % len(COLOURS)], label=name)
@@ -62,12 +90,24 @@ def draw_into(
 
 
 def save(
-    tubes: Mapping[str, tuple[Array, Array]], path: str | Path, wire: float | None = None
+    tubes: Mapping[str, tuple[Array, Array]],
+    path: str | Path,
+    wire: float | None = None,
+    surface: Mesh | None = None,
 ) -> None:
     """Draw the tubes of a vessel into a file; the parameters are those of ``draw``."""
-    figure = draw(tubes, wire)
+    figure = draw(tubes, wire, surface)
     with mpl.rc_context(style.RC):
         figure.savefig(path)
+
+
+def _draw_surface(axes: Any, surface: Mesh) -> None:
+    """Draw triangles; of very many, some, evenly spread."""
+    some = surface.triangles[:: max(1, len(surface.triangles) // TRIANGLES)]
+    sheet = Poly3DCollection(
+        1e3 * surface.points[some], facecolors=style.LUMEN_EDGE, alpha=0.3, rasterized=True
+    )
+    axes.add_collection3d(sheet)
 
 
 def _draw_tubes(axes: Any, parts: list[shapes.Branch], names: Mapping[str, Any]) -> None:

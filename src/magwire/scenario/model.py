@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import tomli_w
 from pydantic import BaseModel, Discriminator, Field, Tag
@@ -135,6 +135,9 @@ class Scenario(Table):
     ``magwire.load_scenario``.
     """
 
+    notes: ClassVar[tuple[str, ...]] = ()
+    """What was done to the vessel's file that it was read from, a sentence each."""
+
     title: str = ""
     description: str = ""
     wire: Wire
@@ -154,6 +157,11 @@ class Scenario(Table):
             if selector:  # what a table is comes first in it
                 tables[name] = {selector: tables[name][selector], **tables[name]}
         return tomli_w.dumps(tables)
+
+    def with_notes(self, notes: tuple[str, ...]) -> Scenario:
+        """The scenario with a record of what it was read from, which is no part of it."""
+        object.__setattr__(self, "notes", notes)
+        return self
 
     def unsteered(self) -> Scenario:
         """The same scenario with nobody steering."""

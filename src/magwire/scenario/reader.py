@@ -78,6 +78,7 @@ def parse(
         raise ScenarioError(f"Scenario '{source}' is not valid TOML: {_plain(error)}.") from None
     faults = apply(raw, overrides)
     unread: set[Key] = set()
+    notes: tuple[str, ...] = ()
     lumen = raw.get("lumen")
     if isinstance(lumen, dict) and lumen.get("shape") == "points" and "file" in lumen:
         raw["lumen"], more = inline(lumen, folder or Path())
@@ -85,7 +86,7 @@ def parse(
         if more:
             unread |= {("lumen", "points"), ("lumen", "radius")}
     elif isinstance(lumen, dict) and lumen.get("shape", "vessel") == "vessel" and "file" in lumen:
-        raw["lumen"], more = inline_vessel({**lumen, "shape": "vessel"}, folder or Path())
+        raw["lumen"], more, notes = inline_vessel({**lumen, "shape": "vessel"}, folder or Path())
         faults += more
         if more:
             unread |= {("lumen", "branches"), ("lumen", "target"), ("feed", "distance")}
@@ -97,7 +98,7 @@ def parse(
         raw["navigate"], more = inline_schedule(navigate, folder or Path())
         faults += more
         unread |= {("navigate", "table")} if more else set()
-    return _validate(raw, faults, unread)
+    return _validate(raw, faults, unread).with_notes(notes)
 
 
 def _feed_to_target(raw: dict[str, Any]) -> None:

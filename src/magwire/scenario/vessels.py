@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 
 from magwire.errors import MagwireError
@@ -17,15 +18,14 @@ from magwire.units import parse, write
 
 if TYPE_CHECKING:
     from magwire.lumen import Lumen
-    from magwire.lumen.branch import Branch
-    from magwire.lumen.vessel import Vessel
+    from magwire.vessel import Vessel
 
 BALL = Row((Quantity("length"),) * 3 + (Quantity("length", "positive"),))
 Balls = Annotated[tuple[tuple[float, float, float, float], ...], Rows(BALL, least=2)]
 VECTORS = {"rotation": "angle", "translation": "length"}
-NUMBERS = ("scale", "smoothing")
+NUMBERS = ("scale", "smoothing", "extend")
 SPOTS = ("entrance", "target")
-KEYS = ("file", "units", "radius", *SPOTS, *NUMBERS, *VECTORS)
+KEYS = ("file", "units", "radius", "cut", *SPOTS, *NUMBERS, *VECTORS)
 
 
 def _note(text: str) -> Any:
@@ -43,7 +43,7 @@ class VesselLumen(LumenTable):
     shape: Literal["vessel"]
     target: str
     branches: Annotated[dict[str, Balls], at_least_one("branch")]
-    file: str | None = _note("centrelines or a surface, in place of branches")
+    file: str | list[str] | None = _note("centrelines or a surface, in place of branches")
     units: str | None = _note("unit of the numbers in the file, unless it states one")
     radius: str | None = _note("array of the file that holds the radius, or one radius for all")
     entrance: str | int | tuple[str, str, str] | None = _note(
@@ -53,6 +53,8 @@ class VesselLumen(LumenTable):
     rotation: tuple[str, str, str] | None = _note("rotation vector, about the file's origin")
     translation: tuple[str, str, str] | None = _note("what is added to all points, then")
     smoothing: float | None = _note("length in radii of the waves that are taken out")
+    extend: float | None = _note("radii by which lines are made longer at their open ends")
+    cut: list[tuple[str, str, str]] | None = _note("points at which loops are opened")
 
     @property
     def narrowest(self) -> float:
@@ -68,13 +70,18 @@ class VesselLumen(LumenTable):
         from magwire.lumen import Lumen
 
         tubes = {name: np.array(rows) for name, rows in self.branches.items()}
-        return Lumen.tree(
-            {name: Lumen.through(rows[:, :3], rows[:, 3]) for name, rows in tubes.items()},
-            target=self.target,
-        )
+        return Lumen.ways(tubes, target=self.target)
 
 
-def inline(lumen: dict[str, Any], folder: Path) -> tuple[dict[str, Any], list[str]]:
+class Inlined(NamedTuple):
+    """A lumen's table with the tubes of its file in it, faults, and what was done to the file."""
+
+    table: dict[str, Any]
+    faults: list[str]
+    notes: tuple[str, ...] = ()
+
+
+def inline(lumen: dict[str, Any], folder: Path) -> Inlined:
     """The lumen table with the tubes of its file in it.
 
     Parameters
@@ -86,7 +93,7 @@ def inline(lumen: dict[str, Any], folder: Path) -> tuple[dict[str, Any], list[st
 
     Returns
     -------
-    tuple
+    Inlined
         The table with ``branches`` and the name of the ``target`` in place of ``file`` and what
         goes with it, and the faults found; with a fault, the table lacks both.
     """
@@ -94,19 +101,26 @@ def inline(lumen: dict[str, Any], folder: Path) -> tuple[dict[str, Any], list[st
     options, faults = _options(lumen)
     if "branches" in lumen:
         faults.append("Input lumen.branches cannot stand next to lumen.file; remove one of them.")
-    if not isinstance(lumen["file"], str):
-        faults.append(f"Input lumen.file must be the name of a file; received {lumen['file']!r}.")
+    given = lumen["file"] if isinstance(lumen["file"], list) else [lumen["file"]]
+    if not given or not all(isinstance(name, str) for name in given):
+        faults.append(
+            "Input lumen.file must be the name of a file or a folder, or a list of files; received "
+            f"{lumen['file']!r}."
+        )
     if faults:
-        return rest, faults
-    from magwire.lumen.vessel import Vessel
+        return Inlined(rest, faults)
+    from magwire.vessel import Vessel
 
     target = options.pop("target", None)
     try:
-        vessel = Vessel.read(folder / lumen["file"], **options)
+        paths = [folder / name for name in given]
+        vessel = Vessel.read(paths[0] if len(paths) == 1 else paths, **options)
         name = vessel.lumen(target).target
+        notes = vessel.record()
     except MagwireError as error:
-        return rest, [str(error).replace(" of Lumen.read", "").replace("Input ", "Input lumen.", 1)]
-    return {**rest, "target": name, "branches": rows_of(vessel)}, []
+        text = str(error).replace(" of Lumen.read", "").replace("Input ", "Input lumen.", 1)
+        return Inlined(rest, [text])
+    return Inlined({**rest, "target": name, "branches": rows_of(vessel)}, [], notes)
 
 
 def needing_a_file(lumen: dict[str, Any]) -> list[str]:
@@ -117,7 +131,7 @@ def needing_a_file(lumen: dict[str, Any]) -> list[str]:
 
 def rows_of(vessel: Vessel) -> dict[str, list[list[str]]]:
     """The tubes of a vessel as a scenario has them."""
-    return {name: _rows(tube) for name, tube in vessel.tubes.items()}
+    return {name: _rows(balls) for name, balls in vessel.balls.items()}
 
 
 def way_length(lumen: dict[str, Any]) -> str | None:
@@ -138,9 +152,8 @@ def way_length(lumen: dict[str, Any]) -> str | None:
 BALL_ROWS = Rows(BALL, least=2)
 
 
-def _rows(tube: Branch) -> list[list[str]]:
-    balls = np.column_stack([tube.points, tube.radius]).tolist()
-    return [[write(value, "length") for value in ball] for ball in balls]
+def _rows(balls: NDArray[np.float64]) -> list[list[str]]:
+    return [[write(value, "length") for value in ball] for ball in balls.tolist()]
 
 
 def _options(lumen: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
@@ -150,7 +163,7 @@ def _options(lumen: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
     if "units" in lumen:
         options["units"] = lumen["units"]
         faults += unit_faults(lumen["units"])
-    for key in (*SPOTS, *VECTORS, *NUMBERS, "radius"):
+    for key in (*SPOTS, *VECTORS, *NUMBERS, "radius", "cut"):
         if key in lumen:
             try:
                 options[key] = _option(key, lumen[key])
@@ -161,10 +174,12 @@ def _options(lumen: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
 
 def _option(key: str, value: Any) -> Any:
     name = f"lumen.{key}"
+    if key == "cut":
+        if not isinstance(value, list):
+            raise MagwireError(f"Input {name} must be a list of points; received {value!r}.")
+        return [_triple(point, "length", name) for point in value]
     if key in VECTORS or (key in SPOTS and isinstance(value, list)):
-        if not isinstance(value, list) or len(value) != 3:
-            raise MagwireError(f"Input {name} must be a list of three; received {value!r}.")
-        return [parse(entry, VECTORS.get(key, "length"), name) for entry in value]
+        return _triple(value, VECTORS.get(key, "length"), name)
     if key in SPOTS:
         if isinstance(value, bool) or not isinstance(value, (str, int)):
             raise MagwireError(
@@ -175,3 +190,10 @@ def _option(key: str, value: Any) -> Any:
     if key == "radius" and isinstance(value, str) and not value[:1].isdecimal():
         return value
     return parse(value, "length" if key == "radius" else "dimensionless", name)
+
+
+def _triple(value: Any, dimension: str, name: str) -> list[float]:
+    """Three quantities."""
+    if not isinstance(value, list) or len(value) != 3:
+        raise MagwireError(f"Input {name} must be a list of three; received {value!r}.")
+    return [parse(entry, dimension, name) for entry in value]

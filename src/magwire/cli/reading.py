@@ -1,0 +1,93 @@
+"""The options of all commands that read a vessel's file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Parameter
+
+from magwire.cli.words import CommandError
+
+if TYPE_CHECKING:
+    from magwire.vessel import Source
+
+Point = Annotated[str | None, Parameter(allow_leading_hyphen=True)]
+Points = Annotated[tuple[str, ...], Parameter(allow_leading_hyphen=True, negative="")]
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class Reading:
+    """How a vessel's file is read.
+
+    Parameters
+    ----------
+    units
+        Unit of its numbers, such as mm; needed unless it states one.
+    entrance
+        Name or number of an end, or a point such as "1 mm, 2 mm, 3 mm"; the widest end if left out.
+    radius
+        Name of the array that holds the radius, or one radius for all, such as "2 mm".
+    scale
+        Factor on all lengths.
+    rotation
+        Rotation vector about the file's origin, such as "0 deg, 0 deg, 90 deg".
+    translation
+        What is added to all points then, such as "1 mm, 2 mm, 3 mm".
+    smoothing
+        Length in radii; shorter waves of the centrelines are taken out.
+    extend
+        By how many radii lines are made longer at their open ends.
+    cut
+        Points such as "1 mm, 2 mm, 3 mm" at which loops are opened.
+    """
+
+    units: str | None = None
+    entrance: Point = None
+    radius: str | None = None
+    scale: float = 1.0
+    rotation: Point = None
+    translation: Point = None
+    smoothing: float = 0.5
+    extend: float = 0.0
+    cut: Points = ()
+
+    def options(self) -> dict[str, Any]:
+        """What ``Vessel.read`` takes, but for the unit."""
+        from magwire import lumen_commands as commands
+
+        found: dict[str, Any] = {
+            "entrance": commands.spot(self.entrance, "--entrance"),
+            "radius": commands.radius_of(self.radius),
+            "scale": self.scale,
+            "smoothing": self.smoothing,
+            "extend": self.extend,
+            "cut": [commands.triple(text, "length", "--cut") for text in self.cut],
+        }
+        if self.rotation is not None:
+            found["rotation"] = commands.triple(self.rotation, "angle", "--rotation")
+        if self.translation is not None:
+            found["translation"] = commands.triple(self.translation, "length", "--translation")
+        return found
+
+    def refuse_any(self) -> None:
+        """Refuse what is given, where no vessel's file is read."""
+        for one in fields(self):
+            value = getattr(self, one.name)
+            if value != one.default:
+                raise CommandError(
+                    f"Option --{one.name} is for a vessel's file; received {value!r}."
+                )
+
+
+USUAL = Reading()
+"""How a file is read if nothing is said."""
+
+
+def source_of(files: tuple[Path, ...]) -> Source:
+    """One file or folder, or several files."""
+    if not files:
+        raise CommandError("The command needs a vessel's file, a folder or several files.")
+    return files[0] if len(files) == 1 else list(files)

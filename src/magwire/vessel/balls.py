@@ -1,0 +1,51 @@
+"""The tube that a file's own points make: the union of their balls."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+from scipy.spatial import KDTree
+
+from magwire.vessel.files.drawing import Array
+
+NEIGHBOURS = 24  # balls of about one size that are compared: the deepest is among the nearest
+
+
+class Original(Protocol):
+    """What a file says the vessel is."""
+
+    def depth(self, points: Array) -> Array:
+        """How deep points, shape (n, 3) [m], are inside, shape (n,) [m]; negative outside."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class Balls:
+    """The union of balls around points, shape (n, 3) [m], of a radius each, shape (n,) [m].
+
+    Finer ones between them count, too: they are searched by themselves, since of dense balls the
+    nearest ones do not reach as far.
+    """
+
+    points: Array
+    radius: Array
+    finer: Balls | None = None
+
+    def depth(self, points: Array) -> Array:
+        """How deep points, shape (n, 3) [m], are inside, shape (n,) [m]; negative outside."""
+        best = np.full(len(points), -np.inf) if self.finer is None else self.finer.depth(points)
+        for tree, radius in self._sizes:
+            count = min(NEIGHBOURS, len(radius))
+            distance, which = tree.query(points, k=count)
+            value = (radius[which] - distance).reshape(len(points), -1).max(axis=1)
+            best = np.maximum(best, value)
+        return best
+
+    @cached_property
+    def _sizes(self) -> list[tuple[KDTree, Array]]:
+        """Balls of about one size each, since the deepest one need not be the nearest."""
+        size = np.floor(np.log2(self.radius / self.radius.min())).astype(np.int64)
+        return [(KDTree(self.points[size == k]), self.radius[size == k]) for k in np.unique(size)]

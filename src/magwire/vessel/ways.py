@@ -1,0 +1,232 @@
+"""The smooth ways from the entrance to the ends of a network; they share what they have in common.
+
+A way is smoothed from a few radii before it leaves the ways before it: further up it is theirs,
+point by point. So the cost is that of the vessel, not of the sum of all ways, and a way that is
+too sharp moves no other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from magwire.vessel.balls import Original
+from magwire.vessel.files.drawing import Array, Indices
+from magwire.vessel.network import Network
+from magwire.vessel.smooth import STEP, Smoothed, smooth
+from magwire.vessel.words import long, place
+
+SPUR = 1.5  # shortest branch that counts, over the radius where it leaves
+TOLD = 0.5  # part of the radius that is lost, from which that is told
+LISTED = 8  # ways that are named one by one
+LEAD = 32.0  # how far before it leaves a way is smoothed, over radius and length of smoothing
+
+
+@dataclass(frozen=True, eq=False)
+class Tube:
+    """A smooth way: that of another one up to some point, and its own from there on.
+
+    Attributes
+    ----------
+    parent
+        The other one; None for the first.
+    shared
+        How many of its points are shared.
+    points, radius, narrowed
+        Its own ones, shapes (n, 3), (n,) and (n,) [m].
+    paces, deviation
+        Of the file's points: how far along the way each is, in radii, and from it [m], (m,).
+    """
+
+    parent: Tube | None
+    shared: int
+    points: Array
+    radius: Array
+    narrowed: Array
+    paces: Array
+    deviation: Array
+
+    def whole(self, what: str) -> Array:
+        """One of ``points``, ``radius`` and ``narrowed`` from the entrance on."""
+        parts = [getattr(self, what)]
+        tube, stop = self, self.shared
+        while tube.parent is not None:
+            tube, before = tube.parent, stop
+            parts.append(getattr(tube, what)[: max(before - tube.shared, 0)])
+            stop = min(before, tube.shared)
+        return np.concatenate(parts[::-1])
+
+    def deviations(self) -> Array:
+        """How far the file's points are from the way, from the entrance on [m]."""
+        parts, tube, stop = [self.deviation], self, STEP * self.shared
+        while tube.parent is not None:
+            tube = tube.parent
+            parts.append(tube.deviation[tube.paces < stop])
+            stop = min(stop, STEP * tube.shared)
+        return np.concatenate(parts[::-1])
+
+
+class Ways(NamedTuple):
+    """The ways by the names of their ends, and what was left out, a sentence each."""
+
+    tubes: dict[str, Tube]
+    notes: tuple[str, ...]
+
+
+def ways(
+    network: Network, start: int, before: Indices, smoothing: float, original: Original
+) -> Ways:
+    """The smooth ways from a point of a network to its ends.
+
+    Parameters
+    ----------
+    network
+        The network [m].
+    start, before
+        The entrance, and the point before each one on the way from it.
+    smoothing
+        Length in radii.
+    original
+        The vessel as the file has it.
+    """
+    ends = {n: end for n, end in network.ends.items() if end != start and before[end] >= 0}
+    last = np.maximum(before, 0)  # the entrance has none before it, and its step is not used
+    steps = np.linalg.norm(network.points - network.points[last], axis=1)
+    ends, notes = _without_spurs(network, start, (before, steps), ends)
+    owner: dict[int, Tube] = {}
+    paces = np.zeros(len(network.points))
+    step = 0.5 * steps * (1.0 / network.radius + 1.0 / network.radius[last])
+    tubes: dict[str, Tube] = {}
+    for name, end in ends.items():
+        nodes = _own(end, before, owner)
+        paces[nodes[1:]] = paces[nodes[0]] + np.cumsum(step[nodes[1:]])
+        made = _tube(network, before, nodes, paces, (smoothing, original, owner.get(nodes[0])))
+        if not made[0].whole:
+            notes.append(f"The way to '{name}' is left out: it {_why(made[0])}.")
+            continue
+        if made[0].raised > 1.0:
+            over = made[0].raised * smoothing
+            notes.append(
+                f"The way to '{name}' is smoothed over {over:.2g} radii where its bends are too "
+                f"sharp for {smoothing:g}."
+            )
+        tubes[name] = made[1]
+        owner.update((node, made[1]) for node in nodes if node not in owner)
+    return Ways(tubes, (*notes, *_narrowed(tubes)))
+
+
+def _own(end: int, before: Indices, owner: dict[int, Tube]) -> list[int]:
+    """Points of a way from the last one that another way has."""
+    nodes = [end]
+    while nodes[-1] not in owner and before[nodes[-1]] >= 0:
+        nodes.append(int(before[nodes[-1]]))
+    return nodes[::-1]
+
+
+def _tube(
+    network: Network,
+    before: Indices,
+    nodes: list[int],
+    paces: Array,
+    means: tuple[float, Original, Tube | None],
+) -> tuple[Smoothed, Tube]:
+    """What smoothing makes of a way's own part and the lead before it, and the tube."""
+    smoothing, original, parent = means
+    split, factor = float(paces[nodes[0]]), 1.0
+    while True:
+        lead = LEAD * smoothing * factor
+        first = max(int((split - lead) / STEP), 0) if parent is not None else 0
+        led = [nodes[0]]
+        while before[led[-1]] >= 0 and paces[led[-1]] > STEP * first:
+            led.append(int(before[led[-1]]))
+        every = np.array(led[::-1] + nodes[1:])
+        at = paces[every]
+        points, radius = network.points[every], network.radius[every]
+        if first > 0 and parent is not None:  # it goes on from where the other one is
+            keep = at > STEP * first
+            here = parent.whole("points")[first], parent.whole("radius")[first]
+            points = np.concatenate([here[0][None], points[keep]])
+            radius = np.append(here[1], radius[keep])
+            at = np.append(STEP * first, at[keep])
+        found = smooth(points, radius, smoothing, original, at)
+        if parent is None or first == 0 or found.raised <= factor:
+            break
+        factor = found.raised
+    skip = 0 if parent is None else min(int(0.5 * lead / STEP), int(split / STEP) - first)
+    skip = max(skip, 0) if first > 0 else 0
+    shared = first + skip
+    parent = parent if shared > 0 else None
+    mine = at >= STEP * shared
+    return found, Tube(
+        parent,
+        shared,
+        found.points[skip:],
+        found.radius[skip:],
+        found.narrowed[skip:],
+        at[mine],
+        found.deviation[mine],
+    )
+
+
+def _narrowed(tubes: dict[str, Tube]) -> list[str]:
+    """Which ways are much narrower than the vessel somewhere, a sentence."""
+    told = []
+    for name, tube in tubes.items():
+        wide = tube.radius + tube.narrowed
+        worst = int(np.argmax(tube.narrowed / wide))
+        if tube.narrowed[worst] > TOLD * wide[worst]:
+            where = place(tube.points[worst])
+            told.append(f"'{name}' by {long(tube.narrowed[worst])} near {where}")
+    if not told:
+        return []
+    more = f", and {len(told) - LISTED} more" if len(told) > LISTED else ""
+    return [
+        "Ways are narrower than the vessel where they bend or taper too sharply for it: "
+        f"{', '.join(told[:LISTED])}{more}. The walls of trunks stay."
+    ]
+
+
+def _why(found: Smoothed) -> str:
+    """Why a way is left out."""
+    closed = int(np.argmin(found.radius))
+    return (
+        f"bends so sharply near {place(found.points[closed])} that a lumen of radius "
+        f"{long(found.radius[closed])} is left of "
+        f"{long(found.radius[closed] + found.narrowed[closed])}"
+    )
+
+
+def _without_spurs(
+    network: Network, start: int, course: tuple[Indices, Array], ends: dict[str, int]
+) -> tuple[dict[str, int], list[str]]:
+    """Ends whose ways leave all others for more than about a radius, and what to say of others."""
+    before, steps = course
+    users: dict[int, int] = {}
+    for end in ends.values():
+        for node in _up(end, before):
+            users[node] = users.get(node, 0) + 1
+            if users[node] > 1:
+                break
+    kept, notes = dict(ends), []
+    for name, end in ends.items():
+        own = [end]
+        while users[own[-1]] == 1 and own[-1] != start:
+            own.append(int(before[own[-1]]))
+        length, last = float(steps[own[:-1]].sum()), own[-1]
+        if last == start and users[last] == 1:
+            continue  # no other way
+        if length < SPUR * network.radius[last]:
+            del kept[name]
+            notes.append(f"A spur of {long(length)}, '{name}', is left out.")
+            users[last] -= 1
+    return kept, notes
+
+
+def _up(node: int, before: Indices) -> Iterator[int]:
+    """A point and those before it, up to the entrance."""
+    while node >= 0:
+        yield node
+        node = int(before[node])
