@@ -57,6 +57,20 @@ class _Trace:
 
         return KDTree(self.curve.at(self.arcs)[:, :3])
 
+    @cached_property
+    def widest(self) -> float:
+        """Largest radius [m]."""
+        return float(self.curve.at(self.arcs)[:, 3].max())
+
+    def close(self, points: Array, reach: Array) -> NDArray[np.intp]:
+        """Indices of the points that may be nearer than ``reach``, shape (n,) [m].
+
+        Most branches of a tree are far from each other: what is not close needs no more.
+        """
+        reach = reach + float(self.arcs[1] - self.arcs[0])
+        found = self._samples.query(points, distance_upper_bound=float(reach.max()))[0]
+        return np.flatnonzero(found <= reach)
+
     def nearest(self, points: Array) -> tuple[Array, Array, Array]:
         """Distance, arc parameter and radius at the nearest point, shapes (n,) [m]."""
         s = self.arcs[self._samples.query(points)[1]]
@@ -91,19 +105,26 @@ def join(lines: Mapping[str, Branch], width: float | None) -> Tree:
     names = list(lines)
     first = lines[names[0]]
     walls, paths = [first], {names[0]: first}
+    traces, ways = [_Trace(names[0], first.curve)], [_Trace(names[0], first.curve)]
     for name in names[1:]:
-        wall, path = _attach(name, lines[name], walls, paths, width)
+        wall, path = _attach(name, lines[name], (traces, ways), paths, width)
         walls.append(wall)
         paths[name] = path
-    _check_courses(names, walls)
+        traces.append(_Trace(name, wall.curve))
+        ways.append(_Trace(name, path.curve))
+    _check_courses(traces)
     return Tree(tuple(walls), paths)
 
 
 def _attach(
-    name: str, line: Branch, walls: list[Branch], paths: dict[str, Branch], width: float | None
+    name: str,
+    line: Branch,
+    before: tuple[list[_Trace], list[_Trace]],
+    paths: dict[str, Branch],
+    width: float | None,
 ) -> tuple[Branch, Branch]:
-    """Wall and path of one more branch."""
-    ways = [_Trace(other, path.curve) for other, path in paths.items()]
+    """Wall and path of one more branch, after the walls and the paths before it."""
+    others, ways = before
     first = next(iter(paths.values()))
     near = SHARED * float(first.radius[0])
     if np.linalg.norm(line.entrance - first.entrance) <= near:
@@ -117,7 +138,6 @@ def _attach(
     else:
         path, arcs = _path(name, line, ways, paths), sampled(line.curve)
     balls = line.curve.at(arcs)
-    others = [_Trace("", wall.curve) for wall in walls]
     if width is None:
         width = BLEND * float(balls[arcs - arcs[0] <= JUNCTION * balls[0, 3], 3].min())
     radius = _run_in(name, arcs - arcs[0], balls, others, width)
@@ -139,9 +159,13 @@ def _leaves(name: str, line: Branch, ways: list[_Trace]) -> float:
     arcs = sampled(line.curve)
     points = line.curve.at(arcs)[:, :3]
     apart = np.full(len(arcs), np.inf)
-    for way in ways:
-        distance, _, radius = way.nearest(points)
-        apart = np.minimum(apart, distance / radius)
+    for way in reversed(ways):  # the last ones are the likeliest to share most of it
+        alone = np.flatnonzero(apart > SHARED)
+        if not len(alone):
+            break
+        close = way.close(points[alone], np.full(len(alone), SHARED * way.widest))
+        distance, _, radius = way.nearest(points[alone[close]])
+        apart[alone[close]] = np.minimum(apart[alone[close]], distance / radius)
     away = np.flatnonzero(apart > SHARED)
     if len(away) == 0:
         raise _refuse(f"'{name}' runs along '{ways[0].name}' to its end")
@@ -253,15 +277,15 @@ def _ramp(t: Array) -> Array:
     return np.asarray(t**3 * (10.0 + t * (6.0 * t - 15.0)))
 
 
-def _check_courses(names: list[str], walls: list[Branch]) -> None:
+def _check_courses(traces: list[_Trace]) -> None:
     """Refuse branches that never leave the others, or come back to them."""
-    traces = [_Trace(name, wall.curve) for name, wall in zip(names, walls, strict=True)]
     for i, trace in enumerate(traces):
         balls = trace.curve.at(trace.arcs)
         free = np.full(len(balls), np.inf)
         for other in traces[:i]:
-            distance, _, radius = other.nearest(balls[:, :3])
-            free = np.minimum(free, distance - radius - balls[:, 3])
+            close = other.close(balls[:, :3], other.widest + balls[:, 3])
+            distance, _, radius = other.nearest(balls[close, :3])
+            free[close] = np.minimum(free[close], distance - radius - balls[close, 3])
         clear = np.flatnonzero(free > 0.0)
         if len(clear) > 0:
             back = clear[0] + np.flatnonzero(free[clear[0] :] < -balls[clear[0] :, 3])
@@ -272,9 +296,11 @@ def _check_courses(names: list[str], walls: list[Branch]) -> None:
                     f"({x:.6g}, {y:.6g}, {z:.6g}) m"
                 )
         for other in traces:
+            if other is trace or not len(other.close(balls[-1:, :3], other.widest + balls[-1:, 3])):
+                continue
             distance, _, radius = other.nearest(balls[-1:, :3])
             overlap = float(radius[0] + balls[-1, 3] - distance[0])
-            if other is not trace and overlap > 0.0:
+            if overlap > 0.0:
                 raise _refuse(
                     f"the outlet '{trace.name}' overlaps '{other.name}' by {overlap:.6g} m"
                 )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,6 +12,7 @@ from typing import Any
 import tomli_w
 
 from magwire.errors import MagwireError, ScenarioError, received
+from magwire.files import TextFaultError, parse_toml, read_text
 from magwire.many.sampling import Choice, Range, Span, Value, samples, split
 from magwire.scenario import Scenario, load, parse
 from magwire.scenario.faults import suggestion
@@ -86,11 +86,11 @@ def read(path: str | Path) -> Sweep:
     """
     path = Path(path)
     try:
-        raw = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        raw = parse_toml(read_text(path))
     except OSError as error:
         reason = (error.strerror or "unknown reason").lower()
         raise ScenarioError(f"Sweep '{path}' cannot be read: {reason}.") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except (TextFaultError, UnicodeDecodeError) as error:
         raise ScenarioError(f"Sweep '{path}' is not valid TOML: {error}.") from None
     table = raw.pop("sweep", None)
     if not isinstance(table, dict):

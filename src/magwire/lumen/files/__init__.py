@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from magwire.files import LARGEST_TEXT, read_bytes
 from magwire.lumen.files import (
     meshes,
     netcdf,
@@ -53,6 +54,8 @@ FORMATS: dict[str, Callable[[bytes, str | None], Drawing]] = {
     ".obj": lambda data, _: meshes.read(data, "obj"),
 }
 """Readers by the end of the file's name."""
+LARGE = (".vtp", ".vtk", ".stl", ".ply", ".obj")
+"""Those of surfaces; centrelines take less."""
 
 
 def load(path: str | Path, radius: str | None = None) -> Drawing:
@@ -78,10 +81,10 @@ def load(path: str | Path, radius: str | None = None) -> Drawing:
     try:
         if place.is_dir():
             raise FileFaultError("is a folder")
-        if place.stat().st_size > LARGEST_FILE:
-            raise FileFaultError(f"is larger than {LARGEST_FILE / 1e6:.0f} MB")
+        most = LARGEST_FILE if place.suffix.lower() in LARGE else LARGEST_TEXT
+        data = read_bytes(place, most)
         with np.errstate(all="ignore"):
-            return checked(reader(place.read_bytes(), radius))
+            return checked(reader(data, radius))
     except OSError as error:
         reason = (error.strerror or "unknown reason").lower()
         raise refuse(path, f"cannot be read: {reason}") from None

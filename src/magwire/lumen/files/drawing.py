@@ -12,9 +12,11 @@ from magwire.errors import InputError
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-LARGEST_FILE = 256_000_000
+LARGEST_FILE = 100_000_000
 """Bytes of a file, or of one of its arrays when unpacked, at most."""
 MOST_POINTS = 4_000_000
+MOST_CELLS = 2_000_000
+"""Lines and polygons of a VTK file, at most."""
 RADII = ("maximuminscribedsphereradius", "radius", "radii", "r")
 """Names of arrays that hold the radius, the first one found counts; case does not matter."""
 
@@ -71,6 +73,11 @@ class Drawing(NamedTuple):
     unit: str | None = None
     arrays: tuple[str, ...] = ()
     entrance: str = ""
+
+
+def may_be_radius(name: str, wanted: str | None) -> bool:
+    """Whether an array of this name could be picked as the radius."""
+    return name == wanted if wanted is not None else name.lower() in RADII
 
 
 def pick_radius(names: tuple[str, ...], wanted: str | None) -> str | None:

@@ -14,7 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.lumen.files.arrays import Encoding
-from magwire.lumen.files.drawing import Array, Drawing, FileFaultError, Indices, Line
+from magwire.lumen.files.drawing import (
+    MOST_CELLS,
+    Array,
+    Drawing,
+    FileFaultError,
+    Indices,
+    Line,
+    may_be_radius,
+)
 from magwire.lumen.files.polydata import MARK, PolyData, drawn
 
 APPENDED = re.compile(rb'<AppendedData\b[^>]*?encoding\s*=\s*"(\w+)"[^>]*>\s*_')
@@ -67,7 +75,7 @@ def read(data: bytes, radius: str | None) -> Drawing:
         raise FileFaultError(f"is a VTK file of type {root.get('type')!r}; expected 'PolyData'")
     poly = PolyData.empty()
     for piece in root.iterfind("PolyData/Piece"):
-        poly = poly.joined(_piece(piece, encoding))
+        poly = poly.joined(_piece(piece, encoding, radius))
     return drawn(poly, radius, _ends(root))
 
 
@@ -131,7 +139,7 @@ def _parse(data: bytes) -> tuple[Element, Encoding]:
     return root, Encoding.of(root, block, raw=raw)
 
 
-def _piece(piece: Element, encoding: Encoding) -> PolyData:
+def _piece(piece: Element, encoding: Encoding, radius: str | None) -> PolyData:
     points = piece.find("Points/DataArray")
     if points is None:
         raise FileFaultError("has no points")
@@ -140,10 +148,15 @@ def _piece(piece: Element, encoding: Encoding) -> PolyData:
         places = places.reshape(-1, 3) if places.size % 3 == 0 else np.zeros((0, 3))
     arrays: dict[str, Array] = {}
     for element in piece.iterfind("PointData/DataArray"):
-        if int(element.get("NumberOfComponents") or 1) == 1:
-            values = np.asarray(encoding.read(element), dtype=np.float64)
-            if len(values) == len(places):
-                arrays[element.get("Name", "")] = values
+        if element.get("NumberOfComponents") not in (None, "", "1"):
+            continue
+        name = element.get("Name", "")
+        if not may_be_radius(name, radius):  # known by its name only: unpacking may cost a lot
+            arrays[name] = np.broadcast_to(np.nan, len(places))
+            continue
+        values = np.asarray(encoding.read(element), dtype=np.float64)
+        if len(values) == len(places):
+            arrays[name] = values
     lines = _cells(piece.find("Lines"), encoding)
     polygons = _cells(piece.find("Polys"), encoding)
     return PolyData(places, arrays, lines, polygons)
@@ -158,6 +171,10 @@ def _cells(element: Element | None, encoding: Encoding) -> list[Indices]:
         return []
     connectivity = np.asarray(encoding.read(parts["connectivity"])).astype(np.int64)
     offsets = np.asarray(encoding.read(parts["offsets"])).astype(np.int64)
+    if len(offsets) > MOST_CELLS:
+        raise FileFaultError(
+            f"has {len(offsets)} cells, more than the {MOST_CELLS} that can be used"
+        )
     stops = np.concatenate([[0], offsets])
     if np.any(np.diff(stops) < 0) or stops[-1] > len(connectivity):
         raise FileFaultError(

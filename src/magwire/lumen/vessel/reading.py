@@ -295,15 +295,16 @@ def _without_spurs(
 ) -> tuple[dict[str, Indices], tuple[str, ...]]:
     """Ways that leave all others for more than about a radius."""
     kept, notes = dict(ways), []
+    walked = np.bincount(np.concatenate([*ways.values(), np.zeros(0, dtype=np.int64)]))
     for name in list(ways):
-        others = [way for end, way in kept.items() if end != name]
-        if not others:
+        if len(kept) == 1:
             continue
-        taken = np.isin(kept[name], np.concatenate(others))
+        taken = walked[kept[name]] > 1  # by another way, too
         last = int(np.flatnonzero(taken)[-1])
         own = network.points[kept[name][last:]]
         length = float(np.linalg.norm(np.diff(own, axis=0), axis=1).sum())
         if length < SPUR * network.radius[kept[name][last]]:
+            walked[kept[name]] -= 1
             del kept[name]
             notes.append(f"A spur of {length:.4g} m, '{name}', is left out.")
     return kept, tuple(notes)
