@@ -19,7 +19,7 @@ from pathlib import Path
 
 import vessel_files
 from magwire.errors import MagwireError
-from magwire.lumen.vessel import Vessel
+from magwire.vessel import Vessel
 
 PATIENCE = 60
 """Seconds after which a file counts as a hang."""

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from magwire.field import GradientField as GradientField
     from magwire.field import UniformField as UniformField
     from magwire.lumen import Lumen as Lumen
-    from magwire.lumen.vessel import Vessel as Vessel
     from magwire.many import Outcome as Outcome
     from magwire.many import run_many as run_many
     from magwire.navigate import Prescribed as Prescribed
@@ -36,6 +35,7 @@ if TYPE_CHECKING:
     from magwire.scenario import load as load_scenario
     from magwire.scenario import names as scenario_names
     from magwire.simulation import Simulation as Simulation
+    from magwire.vessel import Vessel as Vessel
     from magwire.wire import Section as Section
     from magwire.wire import Wire as Wire
 
@@ -64,7 +64,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "StableNavigator": ("magwire.navigate.stable", "StableNavigator"),
     "TipNavigator": ("magwire.navigate.tip", "TipNavigator"),
     "UniformField": ("magwire.field", "UniformField"),
-    "Vessel": ("magwire.lumen.vessel", "Vessel"),
+    "Vessel": ("magwire.vessel", "Vessel"),
     "Wire": ("magwire.wire", "Wire"),
     "load_scenario": ("magwire.scenario", "load"),
     "plan": ("magwire.planning", "plan"),

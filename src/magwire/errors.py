@@ -13,7 +13,6 @@ from numbers import Integral, Real
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-
 LONGEST = 200
 """Characters of a value that messages show."""
 

@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from magwire.errors import MagwireError
-from magwire.lumen.files import Drawing, Line, load, netcdf, vtp
-from magwire.lumen.vessel import Spot, Vessel, survey
-from magwire.lumen.vessel.placement import Placement, guessed_unit
 from magwire.units import DIMENSIONS, parse, show
+from magwire.vessel import Spot, Vessel, survey
+from magwire.vessel.files import Drawing, Line, load, netcdf, vtp
+from magwire.vessel.placement import Placement, guessed_unit
 
 WRITTEN = (".vtp", ".nc", ".toml")
 MM = 1e3

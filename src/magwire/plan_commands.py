@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 
 from magwire.errors import InputError, positive
 from magwire.lumen import Lumen
-from magwire.lumen.vessel import Vessel
 from magwire.lumen_commands import spot
 from magwire.navigate.demands import Demands
 from magwire.planning import Prospect, plan
 from magwire.units import parse
+from magwire.vessel import Vessel
 from magwire.wire import Wire
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ import pytest
 import vessel_files
 from magwire.cli import main
 from magwire.lumen import Lumen
-from magwire.lumen.vessel import Vessel
+from magwire.vessel import Vessel
 
 
 @pytest.fixture

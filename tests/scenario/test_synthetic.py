@@ -10,8 +10,8 @@ import pytest
 
 from magwire.errors import ScenarioError
 from magwire.lumen import Lumen
-from magwire.lumen.synthetic import aortic_arch, carotid_bifurcation, coronary_tree, tortuous
 from magwire.scenario import load
+from magwire.vessel.synthetic import aortic_arch, carotid_bifurcation, coronary_tree, tortuous
 
 FORMULAS: dict[str, tuple[Callable[..., Lumen], dict[str, tuple[Any, str]]]] = {
     "aortic-arch": (

@@ -113,7 +113,7 @@ def convert_lumen(
         Overwrite what is there.
     """
     from magwire import lumen_commands as commands
-    from magwire.lumen.vessel import Vessel
+    from magwire.vessel import Vessel
 
     vessel = Vessel.read(
         file,

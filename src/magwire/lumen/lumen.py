@@ -21,7 +21,7 @@ from magwire.lumen.search import Search
 from magwire.lumen.tree import join
 
 if TYPE_CHECKING:
-    from magwire.lumen.vessel import Spot
+    from magwire.vessel import Spot
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int32]
@@ -269,7 +269,7 @@ class Lumen:
         InputError
             If the file cannot be used: in one sentence, why.
         """
-        from magwire.lumen.vessel import Vessel
+        from magwire.vessel import Vessel
 
         return Vessel.read(path, units, **options).lumen(target)
 

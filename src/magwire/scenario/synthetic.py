@@ -19,7 +19,7 @@ class SyntheticLumen(LumenTable):
     """What these shapes have in common: their keys are what their formula takes."""
 
     formula: ClassVar[str]
-    """Name of a function of ``magwire.lumen.synthetic``."""
+    """Name of a function of ``magwire.vessel.synthetic``."""
 
     @property
     def narrowest(self) -> float:
@@ -32,7 +32,7 @@ class SyntheticLumen(LumenTable):
 
     @cached_property
     def _model(self) -> Lumen:
-        from magwire.lumen import synthetic
+        from magwire.vessel import synthetic
 
         others = {"shape", *LumenTable.model_fields}
         keys = {name: getattr(self, name) for name in type(self).model_fields.keys() - others}

@@ -18,7 +18,7 @@ from magwire.units import parse, write
 if TYPE_CHECKING:
     from magwire.lumen import Lumen
     from magwire.lumen.branch import Branch
-    from magwire.lumen.vessel import Vessel
+    from magwire.vessel import Vessel
 
 BALL = Row((Quantity("length"),) * 3 + (Quantity("length", "positive"),))
 Balls = Annotated[tuple[tuple[float, float, float, float], ...], Rows(BALL, least=2)]
@@ -98,7 +98,7 @@ def inline(lumen: dict[str, Any], folder: Path) -> tuple[dict[str, Any], list[st
         faults.append(f"Input lumen.file must be the name of a file; received {lumen['file']!r}.")
     if faults:
         return rest, faults
-    from magwire.lumen.vessel import Vessel
+    from magwire.vessel import Vessel
 
     target = options.pop("target", None)
     try:

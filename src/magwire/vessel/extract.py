@@ -1,0 +1,220 @@
+"""Centrelines of a surface: the ways through its inside that keep farthest from its wall."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from scipy.sparse.csgraph import connected_components, dijkstra
+from scipy.spatial import KDTree
+
+from magwire.vessel import vmtk
+from magwire.vessel.files.drawing import Array, FileFaultError, Indices, Line, Surface
+from magwire.vessel.interior import Interior, fill, to_wall, wall_samples
+from magwire.vessel.mesh import End, Shell, shell
+
+FINENESS = 0.25  # edge length of a voxel, over the radius of the narrowest end
+SPACING = 0.25  # of the points of the wall, over that radius
+SHYNESS = 3.0  # power of the distance from the wall in the cost of a way
+PULLS = 40  # steps towards the middle
+FIRST_PULL = 0.2  # length of the first one, over the radius
+SMALLEST = 1e-3  # radius of an end, over the size of the vessel
+HOLE = 2.0  # radius of what is behind a hole, over its own
+REACHES = 4.0  # length of a branch without a cap, over the radius where it leaves
+BRANCHES = 60
+MOST = 1000  # points of a line
+ROUGHLY = 0.3  # part by which the distance in the cost may be off
+COARSEST = (
+    0.8  # edge length of a voxel that still tells where the narrowest end is, over its radius
+)
+
+
+class Extracted(NamedTuple):
+    """Lines from the widest end to each other one, and what to know of them."""
+
+    lines: tuple[Line, ...]
+    notes: tuple[str, ...]
+
+
+def extract(surface: Surface) -> Extracted:
+    """The centrelines of a vessel's surface, closed or open, in the surface's unit.
+
+    The ends are the open rims or, of a closed surface, its flat caps; if it has none, they are the
+    tips of its branches. Where VMTK is installed, and there are rims or caps, the lines are its.
+    Otherwise the ways between the ends through the voxels inside are those of the least sum of
+    length over distance from the wall to the power of ``SHYNESS``. Each is then pulled to where the
+    ball that touches the wall is largest, and that ball's radius is the radius.
+
+    Raises
+    ------
+    FileFaultError
+        If the surface is in pieces, has no inside or fewer than two ends.
+    """
+    hull = shell(surface)
+    ends, notes = _without_holes(hull)
+    if len(ends) > 1 and vmtk.installed():
+        found = _by_vmtk(hull, ends)
+        if found is not None:
+            notes = (*notes, "The centrelines are by VMTK.")
+            return Extracted(found[0], (*hull.notes, *notes, found[1]))
+        notes = (*notes, "VMTK does not find the way to every end; magwire's own extraction does.")
+    lines, accuracy = _through_voxels(hull, ends)
+    return Extracted(lines, (*hull.notes, *notes, accuracy))
+
+
+def _by_vmtk(hull: Shell, ends: list[End]) -> tuple[tuple[Line, ...], str] | None:
+    """The lines by VMTK, and how accurate they are."""
+    lines = vmtk.centrelines(hull, ends, max(range(len(ends)), key=lambda k: ends[k].radius))
+    if lines is None:
+        return None
+    spread = SPACING * min(end.radius for end in ends)
+    return lines, _accuracy(lines, *wall_samples(hull.points, hull.wall, spread))
+
+
+def _through_voxels(hull: Shell, ends: list[End]) -> tuple[tuple[Line, ...], str]:
+    """The lines by the voxels inside, and how accurate they are."""
+    narrow = min(end.radius for end in ends) if ends else _typical(hull)
+    inside = fill(hull.points, np.concatenate([hull.wall, hull.caps]), FINENESS * narrow)
+    if inside.cell > COARSEST * narrow:
+        raise FileFaultError(
+            f"has a surface too large to be filled with voxels that its narrowest end, of radius "
+            f"{narrow:.4g}, needs"
+        )
+    samples, spacing = wall_samples(hull.points, hull.wall, SPACING * narrow)
+    inside = _largest(inside)
+    tree = KDTree(samples)
+    distance = to_wall(tree, inside.centres, within=ROUGHLY)[0]
+    graph = inside.graph((distance.max() / np.maximum(distance, 0.1 * inside.cell)) ** SHYNESS)
+    ends = ends or _tips(inside, distance, tree)
+    if len(ends) < 2:
+        raise FileFaultError(f"has a surface with {len(ends)} open ends; expected two at least")
+    first = max(range(len(ends)), key=lambda k: ends[k].radius)
+    voxels = KDTree(inside.centres).query(np.array([end.centre for end in ends]))[1]
+    before = dijkstra(graph, directed=False, indices=voxels[first], return_predecessors=True)[1]
+    lines = []
+    for k, end in enumerate(ends):
+        if k != first:
+            way = inside.centres[_way(before, int(voxels[k]))]
+            way = np.concatenate([[ends[first].centre], way[1:-1], [end.centre]])
+            points = _pulled(way, tree, inside.cell, (ends[first], end))
+            lines.append(Line("", points, to_wall(tree, points, within=0.002)[0]))
+    return tuple(lines), _accuracy(lines, samples, spacing)
+
+
+def _typical(hull: Shell) -> float:
+    """About the radius of a closed surface without caps: volume over area, times two."""
+    a, b, c = (hull.points[hull.wall[:, k]] - hull.points.mean(axis=0) for k in range(3))
+    volume = abs(float(np.sum(a * np.cross(b, c)))) / 6.0
+    area = float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2.0
+    if not volume > 1e-9 * area**1.5:
+        raise FileFaultError("has a surface without an inside")
+    return volume / area
+
+
+def _largest(inside: Interior) -> Interior:
+    """The largest connected part of the voxels."""
+    if len(inside.centres) < 10:
+        raise FileFaultError("has a surface without an inside")
+    label = connected_components(inside.graph(np.ones(len(inside.centres))), directed=False)[1]
+    kept = label == int(np.argmax(np.bincount(label)))
+    number = inside.number.copy()
+    there = number >= 0
+    fresh = np.where(kept, np.cumsum(kept) - 1, -1).astype(np.int32)
+    number[there] = fresh[number[there]]
+    return Interior(inside.centres[kept], number, inside.cell)
+
+
+def _without_holes(hull: Shell) -> tuple[list[End], tuple[str, ...]]:
+    """The ends behind which the vessel is about as wide as they are."""
+    if not hull.ends:
+        return [], ()
+    tree, size = KDTree(hull.points[np.unique(hull.wall)]), float(np.ptp(hull.points, axis=0).max())
+    kept = []
+    for end in hull.ends:
+        behind = end.centre - 3.0 * end.radius * end.outward
+        if SMALLEST * size < end.radius and float(tree.query(behind)[0]) < HOLE * end.radius:
+            kept.append(end)
+    lost = len(hull.ends) - len(kept)
+    return kept, (f"Holes in the wall: {lost}, closed.",) if lost else ()
+
+
+def _tips(inside: Interior, distance: Array, tree: KDTree) -> list[End]:
+    """Ends of a vessel without caps: the tips of its branches, farthest first."""
+    graph = inside.graph(np.ones(len(inside.centres)))
+    start = int(np.argmax(distance))
+    start = int(np.argmax(dijkstra(graph, directed=False, indices=start)))
+    tips, taken = [start], np.array([start])
+    while len(tips) < BRANCHES:
+        far, before, _ = dijkstra(
+            graph, directed=False, indices=taken, return_predecessors=True, min_only=True
+        )
+        tip = int(np.argmax(far))
+        way = _way(before, tip)
+        if far[tip] < REACHES * distance[way[0]] and len(tips) > 1:
+            break
+        tips.append(tip)
+        taken = np.concatenate([taken, way])
+    return [_tip_end(inside.centres[tip], inside, distance) for tip in tips]
+
+
+def _tip_end(tip: Array, inside: Interior, distance: Array) -> End:
+    """The end at a tip: the middle of the largest ball that reaches it."""
+    near = np.flatnonzero(
+        np.linalg.norm(inside.centres - tip, axis=1) < 1.5 * distance + inside.cell
+    )
+    best = near[int(np.argmax(distance[near]))]
+    centre = inside.centres[best]
+    away = tip - centre
+    size = float(np.linalg.norm(away))
+    outward = away / size if size > 0.0 else np.array([1.0, 0.0, 0.0])
+    return End(centre, outward, float(distance[best]))
+
+
+def _way(before: Indices, end: int) -> Indices:
+    found = [end]
+    while before[found[-1]] >= 0:
+        found.append(int(before[found[-1]]))
+    return np.array(found[::-1], dtype=np.int64)
+
+
+def _pulled(way: Array, tree: KDTree, cell: float, ends: tuple[End, End]) -> Array:
+    """The way, pulled across its direction to where the wall is farthest, and evened out."""
+    points = _even(way, cell)
+    mean = np.zeros_like(points)
+    for step in range(PULLS):
+        distance, away = to_wall(tree, points, within=0.02)
+        along = np.gradient(points, axis=0)
+        along /= np.maximum(np.linalg.norm(along, axis=1), 1e-300)[:, None]
+        across = away - np.sum(away * along, axis=1)[:, None] * along
+        pull = FIRST_PULL * distance / (1.0 + 0.5 * step)
+        points = points + pull[:, None] * across
+        points[1:-1] = 0.25 * points[:-2] + 0.5 * points[1:-1] + 0.25 * points[2:]
+        if step >= PULLS // 2:
+            mean += points / (PULLS - PULLS // 2)
+    for i, end in zip((0, -1), ends, strict=True):  # it begins and stops in the ends' planes
+        mean[i] -= (mean[i] - end.centre) @ end.outward * end.outward
+    return _even(mean, cell)
+
+
+def _even(points: Array, cell: float) -> Array:
+    """Points of a polyline at even distances of about ``cell``."""
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    arc = np.concatenate([[0.0], np.cumsum(steps)])
+    at = np.linspace(0.0, arc[-1], min(max(int(arc[-1] / cell), 4), MOST) + 1)
+    return np.column_stack([np.interp(at, arc, points[:, k]) for k in range(3)])
+
+
+def _accuracy(lines: Sequence[Line], samples: Array, spacing: float) -> str:
+    """How far the surface is from the tubes of inscribed balls."""
+    points = np.concatenate([line.points for line in lines])
+    radius = np.concatenate([line.radius for line in lines])
+    some = samples[:: max(1, len(samples) // 20_000)]
+    distance, nearest = KDTree(points).query(some, k=min(16, len(points)))
+    off = np.abs((distance - radius[nearest]).reshape(len(some), -1).min(axis=1))
+    middle, most = np.percentile(off, [50, 95])
+    return (
+        f"The radius is that of inscribed balls, within {spacing**2 / (2 * radius.min()):.2g}; the "
+        f"surface is off their tube by {middle:.2g} in the median and {most:.2g} at 95 percent, in "
+        "the file's unit."
+    )

@@ -1,0 +1,205 @@
+"""Vessels: lines joined, cleaned and smoothed, by a stated amount."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from magwire.errors import InputError
+from magwire.lumen import Lumen
+from magwire.vessel import Vessel, survey
+from magwire.vessel.placement import Placement
+from magwire.vessel.smooth import smooth
+from vessel_files import Lines, fork, pieces, table, vtp
+
+S = np.arange(0.0, 100.5, 0.5)
+
+
+def read(folder: Path, lines: Lines, **options: object) -> Vessel:
+    path = folder / "vessel.vtp"
+    path.write_bytes(vtp(lines=lines))
+    return Vessel.read(path, "mm", **options)  # type: ignore[arg-type]
+
+
+def straight(radius: float = 2.0) -> tuple[np.ndarray, np.ndarray]:
+    return np.column_stack([S, 0 * S, 0 * S]), np.full(len(S), radius)
+
+
+def test_smoothing_is_a_low_pass() -> None:
+    """A wave of wave number k is damped by 1 / (1 + (length k)^6), in radii."""
+    s, length = np.linspace(0.0, 200.0, 8001), 0.5
+    for k in (0.5, 1.0, 2.0, 3.0, 4.0):
+        wave = 0.05 * np.sin(k * s)
+        found = smooth(np.column_stack([s, wave, 0 * s]), np.ones(len(s)), length)
+        inside = np.abs(found.points[:, 0] - 100.0) < 60.0
+        damped = found.points[inside, 1].std() * np.sqrt(2.0) / 0.05
+        assert damped == pytest.approx(1.0 / (1.0 + (length * k) ** 6), abs=0.02)
+        assert found.deviation.max() == pytest.approx(0.05 * (1.0 - damped), abs=6e-3)
+
+
+def test_noise_goes_and_the_deviation_says_so(tmp_path: Path) -> None:
+    rng = np.random.default_rng(3)
+    points, radius = straight()
+    noisy = points + 0.1 * rng.normal(size=points.shape)
+    with pytest.raises(InputError, match="must bend with a radius larger"):
+        Lumen.through(1e-3 * noisy, 1e-3 * radius)
+    vessel = read(tmp_path, [(noisy, radius)])
+    (tube,), (way,) = vessel.tubes.values(), vessel.ways.values()
+    off = np.linalg.norm(tube.points[:, 1:], axis=1)
+    assert off.max() < 0.3e-3
+    assert 0.05e-3 < way.deviation[1] < 0.2e-3
+    assert tube.bend_radius().radius > 2.0 * 2e-3
+
+
+def test_spikes_and_repeated_points_go(tmp_path: Path) -> None:
+    points, radius = straight()
+    broken = np.insert(points, [50, 50, 120], [[24.5, 0, 0], [24.5, 0, 0], [60.0, 9.0, 0]], axis=0)
+    wide = np.insert(radius, [50, 50, 120], [2.0, 2.0, 2.0])
+    wide[80] = 40.0
+    vessel = read(tmp_path, [(broken, wide)])
+    (tube,) = vessel.tubes.values()
+    assert np.abs(tube.points[:, 1:]).max() < 1e-6
+    assert tube.radius.max() < 2.01e-3
+    assert any("3, left out" in note for note in vessel.notes)
+
+
+def test_a_wide_bend_is_narrowed_and_says_so(tmp_path: Path) -> None:
+    w = np.linspace(0.0, 0.5 * np.pi, 60)
+    points = np.column_stack([4.0 * np.sin(w), 4.0 * (1.0 - np.cos(w)), 0 * w])
+    ahead = points[-1] + np.arange(1, 40)[:, None] * [0.0, 0.5, 0.0]
+    before = np.arange(-40, 0)[:, None] * [0.5, 0.0, 0.0]
+    line = np.concatenate([before, points, ahead])
+    radius = np.full(len(line), 2.0)
+    radius[40:100] = 4.5 - 2.5 * np.abs(np.linspace(-1, 1, 60))
+    vessel = read(tmp_path, [(line, radius)], smoothing=0.2)
+    (way,) = vessel.ways.values()
+    assert way.narrowed > 0.3e-3
+    assert np.linalg.norm(1e3 * way.where - points[30]) < 3.0
+
+
+def test_orientation_and_entrance(tmp_path: Path) -> None:
+    flipped = [(p[::-1], r[::-1]) for p, r in fork()]
+    for lines in (fork(), flipped, pieces()):
+        vessel = read(tmp_path, lines)
+        assert np.allclose(vessel.lumen().entrance, 0.0)  # the widest end
+        assert len(vessel.tubes) == 2
+    side = np.column_stack([np.full(80, 50.0), 0.5 * np.arange(80), np.zeros(80)])
+    vessel = read(tmp_path, [straight(), (side, np.full(80, 1.5))], entrance=3)
+    assert set(vessel.tubes) == {"end-1", "end-2"}
+    for tube in vessel.tubes.values():
+        assert tube.length == pytest.approx(89.5e-3, abs=2e-3)
+        assert np.allclose(tube.entrance, vessel.ends["end-3"])
+
+
+def test_a_way_that_turns_back_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"bends so sharply near .* on the way to 'end-3'"):
+        read(tmp_path, fork(), entrance="end-2")
+
+
+def test_an_entrance_inside_cuts_off_what_is_behind(tmp_path: Path) -> None:
+    vessel = read(tmp_path, fork(), entrance=(20e-3, 0.0, 2e-3))
+    assert vessel.entrance == "point"
+    assert set(vessel.tubes) == {"end-2", "end-3"}
+    for tube in vessel.tubes.values():
+        assert tube.entrance == pytest.approx([20e-3, 0.0, 2e-3], abs=0.3e-3)
+
+
+def test_targets_by_name_number_and_point(tmp_path: Path) -> None:
+    vessel = read(tmp_path, fork())
+    end = vessel.ends["end-3"]
+    assert vessel.lumen("end-3").target == "end-3"
+    assert vessel.lumen(3).target == "end-3"
+    assert vessel.lumen(tuple(end)).target == "end-3"
+    assert vessel.lumen((50e-3, -2e-3, 5e-3)).target == "end-3"
+    with pytest.raises(InputError, match="must be the number of an end, one of 2, 3; received 1"):
+        vessel.lumen(1)
+    with pytest.raises(InputError, match="must be 'end-2' or 'end-3'; received 'left'"):
+        vessel.lumen("left")
+
+
+def test_names_come_from_the_file(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_bytes(table())
+    vessel = Vessel.read(tmp_path / "a.csv", "mm")
+    assert list(vessel.tubes) == ["way0", "way1"]
+
+
+def test_placement(tmp_path: Path) -> None:
+    plain = read(tmp_path, fork())
+    moved = read(
+        tmp_path, fork(), scale=2.0, rotation=(0, 0, np.pi / 2), translation=(0.1, 0.0, 0.0)
+    )
+    for name, tube in plain.tubes.items():
+        x, y, z = 2.0 * tube.points.T
+        assert np.allclose(moved.tubes[name].points, np.column_stack([0.1 - y, x, z]), atol=1e-9)
+        assert np.allclose(moved.tubes[name].radius, 2.0 * tube.radius, atol=1e-9)
+
+
+def test_pieces_that_do_not_touch_are_refused(tmp_path: Path) -> None:
+    far = pieces()
+    far[1] = (far[1][0] + [0.0, 30.0, 0.0], far[1][1])
+    with pytest.raises(InputError, match=r"is in 2 disconnected pieces; the closest ones are 0\.0"):
+        read(tmp_path, far)
+
+
+def test_small_gaps_are_bridged_and_noted(tmp_path: Path) -> None:
+    apart = pieces()
+    apart[0] = (apart[0][0][:-6], apart[0][1][:-6])
+    vessel = read(tmp_path, apart)
+    assert any("gap of 0.003" in note and "is bridged" in note for note in vessel.notes)
+    assert len(vessel.tubes) == 2
+
+
+def test_loops_are_refused(tmp_path: Path) -> None:
+    w = np.linspace(0.0, np.pi, 120)
+    aside = np.column_stack([40 - 20 * np.cos(w), 20 * np.sin(w), 0 * w])
+    with pytest.raises(InputError, match="has a loop of length"):
+        read(tmp_path, [straight(), (aside, np.full(120, 1.5))])
+
+
+def test_spurs_are_left_out(tmp_path: Path) -> None:
+    spur = np.column_stack([np.full(5, 50.0), np.linspace(0.0, 2.0, 5), np.zeros(5)])
+    vessel = read(tmp_path, [straight(), (spur, np.full(5, 1.0))])
+    assert list(vessel.tubes) == ["end-2"]
+    assert any("spur" in note for note in vessel.notes)
+
+
+def test_repeated_lines_are_one(tmp_path: Path) -> None:
+    vessel = read(tmp_path, [straight(), straight()])
+    assert list(vessel.tubes) == ["end-2"]
+    assert any("repeat others are left out: 2" in note for note in vessel.notes)
+
+
+def test_survey(tmp_path: Path) -> None:
+    vessel = read(tmp_path, fork())
+    first, second = survey.courses(vessel)
+    assert first.own == pytest.approx(first.length)
+    assert 18e-3 < second.own < 30e-3
+    assert first.radii == pytest.approx((1.8e-3, 3e-3), rel=2e-3)
+    assert first.narrowest == pytest.approx(first.length, rel=1e-6)
+    reach = survey.reach(first, 1e-3, 1e-7)
+    assert reach.fits
+    assert reach.force == pytest.approx(1e-7 / first.bend.radius**2)
+    assert not survey.reach(first, 1.9e-3, 1e-7).fits
+
+
+def test_flipped_axes_are_found(tmp_path: Path) -> None:
+    from magwire.vessel.files import load
+
+    lines = [(p + [30.0, 70.0, -20.0], r) for p, r in fork()]
+    vessel = read(tmp_path, lines)
+    (tmp_path / "other.vtp").write_bytes(vtp(lines=[(p * [-1, -1, 1], r) for p, r in lines]))
+    (tmp_path / "same.vtp").write_bytes(vtp(lines=lines))
+    other, same = load(tmp_path / "other.vtp"), load(tmp_path / "same.vtp")
+    assert survey.flipped_axes(vessel, other, Placement(1e-3)) == "x and y"
+    assert survey.flipped_axes(vessel, same, Placement(1e-3)) is None
+
+
+def test_a_tube_that_meets_itself(tmp_path: Path) -> None:
+    w = np.linspace(0.0, 2.0 * np.pi, 200)
+    ring = np.column_stack([20 * np.sin(w), 20 * (1 - np.cos(w)), 3.0 * w / (2 * np.pi)])
+    vessel = read(tmp_path, [(ring, np.full(200, 2.0))])
+    (sentence,) = survey.self_contacts(vessel)
+    assert "meets itself" in sentence
+    assert not list(survey.self_contacts(read(tmp_path, fork())))
