@@ -18,6 +18,9 @@ LARGEST_TEXT = 32_000_000
 """Bytes of a file that people write or that holds a table, at most."""
 
 
+DRAFT, LOCK = ".draft", ".magwire.lock"
+
+
 class InUseError(MagwireError):
     """A file or folder that another process is writing to."""
 
@@ -64,9 +67,10 @@ def read_text(path: str | Path, most: int = LARGEST_TEXT) -> str:
 def successor(path: Path) -> Iterator[Path]:
     """A draft next to a file that takes its place in one step, if nothing goes wrong.
 
-    Its name is its own, so that two processes do not write into one draft.
+    Its name is its own, so that two processes do not write into one draft; it ends like the file's,
+    which tells libraries what to write.
     """
-    draft = path.with_name(f".{path.name}.{secrets.token_hex(4)}.draft")
+    draft = path.with_name(f".{path.stem}.{secrets.token_hex(4)}{DRAFT}{path.suffix}")
     try:
         yield draft
         draft.replace(path)
@@ -106,18 +110,15 @@ def claimed(path: Path, name: str) -> Iterator[None]:
         yield
 
 
-LOCK = ".magwire.lock"
-
-
 def is_left_over(path: Path) -> bool:
     """Whether a file is a lock or a draft, which stay behind when a process is killed."""
-    return path.name.startswith(".") and path.name.endswith((".draft", ".lock"))
+    return path.name.startswith(".") and (DRAFT in path.name or path.suffix == ".lock")
 
 
 def _sweep(path: Path) -> None:
     """Remove the drafts of a file, or all those in a folder."""
-    found = path.glob(".*.draft") if path.is_dir() else path.parent.glob(f".{path.name}.*draft")
-    for draft in found:
+    kind = f"*{DRAFT}*" if path.is_dir() else f"{path.stem}.????????{DRAFT}{path.suffix}"
+    for draft in (path if path.is_dir() else path.parent).glob(f".{kind}"):
         with suppress(OSError):  # one that is a folder, or on Windows in use
             draft.unlink(missing_ok=True)
 

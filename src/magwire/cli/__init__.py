@@ -19,6 +19,7 @@ from magwire.cli.sweeps import sweep
 from magwire.cli.vessels import lumen
 from magwire.cli.words import INTERRUPTED, complain
 from magwire.errors import MagwireError
+from magwire.interrupt import Terminated, end_in_order
 
 __all__ = ["app", "main"]
 
@@ -54,15 +55,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     words = sys.argv[1:] if arguments is None else list(arguments)
     gc.set_threshold(RESTING)
+    end_in_order()
     try:
         status = app(words, exit_on_error=False, print_error=False)
     except KeyboardInterrupt:
         complain("Interrupted.")
         return INTERRUPTED
+    except Terminated as told:
+        complain(str(told))
+        return told.status
     except (MagwireError, CycloptsError) as error:
         complain(str(error))
         return 1
     except BrokenPipeError:  # a reader such as head has seen enough
         sys.stderr.close()
+        return 1
+    except OSError as error:  # a disk that is full, or gone, wherever it is noticed
+        where = f" '{error.filename}'" if error.filename else ""
+        complain(f"A file{where} cannot be used: {(error.strerror or str(error)).lower()}.")
         return 1
     return status if isinstance(status, int) else 0

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from pathlib import Path
 
-from magwire.cli.folders import check_free, writing_to
+from magwire.cli.folders import occupied, writing_to
 from magwire.cli.options import Flag
 from magwire.cli.words import CommandError, say, say_if_compiling
 
@@ -64,42 +65,42 @@ def plan_outlets(
         "magnetization": magnetization,
         "magnet": magnetized_tip,
     }
-    if out is not None:  # better said before the work than after it
-        check_free(out, force=force)
+    claim = nullcontext() if out is None else occupied(out, force=force)  # better before the work
     say_if_compiling()
-    with pieces(1) as begin:
-        if source in names() or Path(source).suffix == ".toml":
-            given = {
-                "--units": units,
-                "--entrance": entrance,
-                "--scale": scale,
-                "--youngs-modulus": youngs_modulus,
-                "--magnetization": magnetization,
-                "--magnetized-tip": magnetized_tip,
-            }
-            for option, value in given.items():
-                if value is not None:
-                    raise CommandError(
-                        f"Option {option} is for a vessel's file; received {value!r}."
-                    )
-            lumen, prospects = commands.of_scenario(load(source), words, watch=begin)
-        else:
-            lumen, prospects = commands.of_file(
-                Path(source),
-                words,
-                units=units,
-                entrance=entrance,
-                scale=1.0 if scale is None else scale,
-                watch=begin,
-            )
-    console = Console()
-    if not console.is_terminal:
-        console = Console(width=commands.FILE_WIDTH)
-    console.print(commands.table(prospects))
-    for line in commands.reasons(prospects):
-        say(line)
-    if out is not None:
-        with writing_to(out):
-            for path in commands.save(lumen, prospects, out):
-                say(str(path))
-    return 0
+    with claim:
+        with pieces(1) as begin:
+            if source in names() or Path(source).suffix == ".toml":
+                given = {
+                    "--units": units,
+                    "--entrance": entrance,
+                    "--scale": scale,
+                    "--youngs-modulus": youngs_modulus,
+                    "--magnetization": magnetization,
+                    "--magnetized-tip": magnetized_tip,
+                }
+                for option, value in given.items():
+                    if value is not None:
+                        raise CommandError(
+                            f"Option {option} is for a vessel's file; received {value!r}."
+                        )
+                lumen, prospects = commands.of_scenario(load(source), words, watch=begin)
+            else:
+                lumen, prospects = commands.of_file(
+                    Path(source),
+                    words,
+                    units=units,
+                    entrance=entrance,
+                    scale=1.0 if scale is None else scale,
+                    watch=begin,
+                )
+        console = Console()
+        if not console.is_terminal:
+            console = Console(width=commands.FILE_WIDTH)
+        console.print(commands.table(prospects))
+        for line in commands.reasons(prospects):
+            say(line)
+        if out is not None:
+            with writing_to(out):
+                for path in commands.save(lumen, prospects, out):
+                    say(str(path))
+        return 0

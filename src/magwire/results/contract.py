@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -10,6 +9,8 @@ from typing import Any
 import numpy as np
 
 from magwire.engine.record import Record, RunInfo
+from magwire.files import parse_toml
+from magwire.results import provenance
 
 FLOAT = np.dtype(np.float64)
 
@@ -138,8 +139,13 @@ def sizes(info: RunInfo) -> dict[str, int]:
     return {"node": info.nodes, "xyz": 3, "centreline_point": len(info.lumen_radius)}
 
 
+def plain(text: str) -> str:
+    """A text without what NetCDF does not take, such as a zero byte."""
+    return "".join(letter if letter.isprintable() else " " for letter in text)
+
+
 def _title_of(scenario: str) -> str:
-    title = tomllib.loads(scenario).get("title", "")
+    title = parse_toml(scenario).get("title", "")
     return title if isinstance(title, str) else ""
 
 
@@ -147,9 +153,10 @@ def opening_attributes(info: RunInfo, version: str) -> dict[str, Any]:
     """Attributes of the file that are known from the start."""
     return {
         "Conventions": "CF-1.11",
-        "title": info.title or _title_of(info.scenario),
+        "title": plain(info.title or _title_of(info.scenario)),
         "source": f"magwire {version}",
         "magwire_version": version,
+        **provenance.attributes(),
         "scenario": info.scenario,
         "motion": info.motion,
         "length_scale": float(info.scales.length),

@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.errors import ResultError
+from magwire.files import successor
+from magwire.results import disk
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -76,9 +78,10 @@ class Result:
         """
         path = Path(path)
         try:
-            self.dataset.to_netcdf(path, engine="h5netcdf", unlimited_dims=["time"])
+            disk.save(self.dataset, path, ("time",))
         except OSError as error:
-            raise ResultError(f"Result file '{path}' cannot be written: {error}.") from error
+            reason = (error.strerror or str(error)).lower()
+            raise ResultError(f"Result file '{path}' cannot be written: {reason}.") from error
         return path
 
     def plot(self, path: str | Path | None = None) -> Figure:
@@ -93,14 +96,16 @@ class Result:
 
         figure = draw(self.dataset)
         if path is not None:
-            figure.savefig(Path(path))
+            with successor(Path(path)) as draft:
+                figure.savefig(draft)
         return figure
 
     @property
     def status(self) -> str:
         """How it ended, or "running".
 
-        "complete", "not converged", "unstable", "no field", "interrupted" or "failed".
+        "complete", "not converged", "unstable", "no field", "interrupted", "terminated" or
+        "failed".
         """
         return str(self.dataset.attrs["status"])
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from scipy.io import netcdf_file
 
+from magwire.files import write_whole
 from magwire.vessel.files.drawing import Drawing, FileFaultError, Line
 
 
@@ -71,4 +72,4 @@ def write(path: Path, lines: Sequence[Line], ends: Sequence[str]) -> None:
             variable.units, variable.long_name = unit.encode(), text.encode()
         file.flush()
         data = whole.getvalue()  # closing the one closes the other
-    path.write_bytes(data)
+    write_whole(path, data)

@@ -13,6 +13,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.files import write_whole
 from magwire.vessel.files.arrays import Encoding
 from magwire.vessel.files.drawing import (
     MOST_CELLS,
@@ -102,7 +103,7 @@ def write(path: Path, lines: Sequence[Line], ends: Sequence[str]) -> None:
         "offsets": _numbers(count),
     }
     head = {"mark": MARK, "n": len(points), "m": len(lines), "bytes": len(codes)}
-    path.write_text(TEMPLATE.format(**parts, **head), encoding="utf-8")
+    write_whole(path, TEMPLATE.format(**parts, **head))
 
 
 def _numbers(values: NDArray[Any]) -> str:
