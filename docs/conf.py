@@ -31,6 +31,8 @@ myst_heading_anchors = 3
 
 autosummary_generate = True
 autodoc_typehints = "signature"
+# As the sources have them, not what numpy makes of them.
+autodoc_type_aliases = {name: name for name in ("ArrayLike", "Array", "Indices")}
 autodoc_member_order = "bysource"
 autodoc_default_options = {"members": True, "show-inheritance": False}
 numpydoc_class_members_toctree = False

@@ -25,7 +25,7 @@ def scenarios() -> list[mw.Scenario]:
 def done(tmp_path_factory: pytest.TempPathFactory) -> tuple[list[Outcome], list[Outcome]]:
     """Outcomes of the three scenarios by two workers, the second one without a place to write."""
     out = tmp_path_factory.mktemp("many")
-    (out / ".0001.nc.draft").mkdir()
+    (out / ".0001.nc.lock").mkdir()
     seen: list[Outcome] = []
     return mw.run_many(scenarios(), workers=2, out=out, watch=seen.append), seen
 

@@ -11,6 +11,7 @@ from cyclopts import App, CycloptsError
 import magwire
 from magwire.cli.benchmarks import bench
 from magwire.cli.evidence import reproduce, verify
+from magwire.cli.health import doctor
 from magwire.cli.outlets import plan_outlets
 from magwire.cli.pictures import animate, plot
 from magwire.cli.running import replay, run
@@ -29,12 +30,14 @@ it again and again takes an eighth of the time to the first step."""
 
 app = App(
     name="magwire",
-    help="Simulate magnetic soft continuum robots in lumens.",
+    help="Simulate magnetic soft continuum robots in lumens.\n\n"
+    "To report a fault: send the output of 'magwire doctor', the command and all that it printed, "
+    "and scenario.toml, to where you got magwire from.",
     version=lambda: magwire.__version__,
     version_flags=["--version"],
     result_action="return_value",
 )
-for command in (animate, bench, lumen, plot, replay, reproduce, run, schema, sweep, verify):
+for command in (animate, bench, doctor, lumen, plot, replay, reproduce, run, schema, sweep, verify):
     app.command(command)
 app.command(list_scenarios, name="list")
 app.command(plan_outlets, name="plan")

@@ -46,6 +46,8 @@ def sweep(
     described = sweeps.read(file)
     runs = len(described.scenarios)  # all faults of the file before anything is written
     folder = out or Path(f"{file.stem}-sweep")
+    if described.note:
+        complain(described.note)
     again = not force and sweeping.begun(folder, described)
     if again:
         complain(f"Taking up the sweep in '{folder}'.")

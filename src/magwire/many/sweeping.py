@@ -86,11 +86,12 @@ def lines(table: xr.Dataset) -> list[str]:
     """What to know of a sweep, a line each."""
     status = Counter(str(word) for word in table["status"].values)
     ended = ", ".join(f"{count} {word}" for word, count in status.most_common())
-    free = int(np.nansum(table["contact_free"].values == 1.0))
+    whole = table["status"].values == "complete"  # one that stopped early had not met all of it
+    free = int(np.count_nonzero(table["contact_free"].values[whole] == 1.0))
     rows = {
         "runs": f"{table.sizes['run']}: {ended}",
         "varied": str(table.attrs["parameters"]),
-        "tip clear throughout": f"in {free} runs",
+        "tip clear throughout": f"in {free} of {int(whole.sum())} complete runs",
     }
     for name, label, dimension in (
         ("max_tip_force", "peak tip force", "force"),

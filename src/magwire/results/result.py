@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from magwire.errors import ResultError
 from magwire.files import successor
-from magwire.results import disk
+from magwire.results import disk, loading
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 FILE = "result.nc"
-REQUIRED = ("time", "feed", "position", "tip_force", "clearance")
 
 
 class Result:
@@ -47,9 +46,6 @@ class Result:
         ResultError
             If it is no result file.
         """
-        import h5py
-        import xarray as xr
-
         path = Path(path)
         if path.is_dir():
             if not (path / FILE).exists():
@@ -57,16 +53,7 @@ class Result:
             path = path / FILE
         if not path.exists():
             raise ResultError(f"Result file '{path}' does not exist.")
-        if not h5py.is_hdf5(path):
-            raise ResultError(f"Result file '{path}' is not a readable NetCDF-4 file.")
-        try:
-            dataset = xr.load_dataset(path, engine="h5netcdf")
-        except (OSError, ValueError, KeyError) as error:
-            raise ResultError(f"Result file '{path}' is not a readable NetCDF-4 file.") from error
-        absent = [name for name in REQUIRED if name not in dataset.variables]
-        if absent or "status" not in dataset.attrs:
-            raise ResultError(f"File '{path}' is not a result of magwire.")
-        return cls(dataset)
+        return cls(loading.load(path))
 
     def save(self, path: str | Path) -> Path:
         """Write a result file; an existing one is overwritten.

@@ -45,7 +45,7 @@ def load(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Scenario:
     ScenarioError
         With all faults of the scenario, one sentence each.
     """
-    text, folder = _read(name_or_path)
+    text, folder = text_of(name_or_path)
     return parse(text, overrides, folder=folder, source=str(name_or_path))
 
 
@@ -135,7 +135,14 @@ def _validate(raw: dict[str, Any], faults: list[str], unread: set[Key]) -> Scena
     return scenario
 
 
-def _read(name_or_path: str | Path) -> tuple[str, Path]:
+def text_of(name_or_path: str | Path) -> tuple[str, Path]:
+    """The text of a scenario as it stands, and the folder that file names in it start from.
+
+    Raises
+    ------
+    ScenarioError
+        If there is none, or it cannot be read.
+    """
     name = str(name_or_path)
     if isinstance(name_or_path, str) and name in names():
         entry = files("magwire.scenario").joinpath("library", f"{name}.toml")
