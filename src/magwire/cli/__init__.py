@@ -36,6 +36,7 @@ app = App(
     version=lambda: magwire.__version__,
     version_flags=["--version"],
     result_action="return_value",
+    suppress_keyboard_interrupt=False,  # what is said then is said below
 )
 for command in (animate, bench, doctor, lumen, plot, replay, reproduce, run, schema, sweep, verify):
     app.command(command)
