@@ -161,8 +161,8 @@ def parse(value: object, dimension: str, name: str = "") -> float:
     # Decimal arithmetic: "0.6 mm" is 0.0006 exactly, not 0.0006 and some rounding.
     try:
         number = float(Decimal(match[1]) * Decimal(repr(kind.units[unit])))
-    except ArithmeticError:  # an exponent that is too large even for a decimal number
-        number = math.inf
+    except ArithmeticError:  # an exponent that is beyond even a decimal number's
+        number = 0.0 if "e-" in match[1].lower() else math.inf
     if not math.isfinite(number):
         raise InputError(f"{what} must be a finite number; received {text}.")
     return number

@@ -16,6 +16,8 @@ from pathlib import Path
 
 PATIENCE, LONG = 30.0, 10.0
 """Time after which a case is a hang, and after which it is interrupted [s]."""
+SLOWER = 10.0
+"""By how much others on the machine may slow a case down; more counts as waiting for ever."""
 LARGEST = 1024.0
 """Memory of a case, at most [MB]."""
 RIGHT = (0, 1, 130)
@@ -55,7 +57,7 @@ def child(act: Callable[[], int | None], after: float = LONG, number: int = sign
     act
         What to do; its value is the exit status.
     after
-        Time until the signal [s].
+        Time of the processor until the signal [s].
     number
         The signal.
     """
@@ -69,7 +71,7 @@ def child(act: Callable[[], int | None], after: float = LONG, number: int = sign
             done, how, used = os.wait4(pid, os.WNOHANG)
             if done:
                 break
-            passed = time.monotonic() - begin
+            passed = _spent(pid, begin)
             if not sent and passed > after:
                 os.kill(pid, number)
                 sent = True
@@ -80,7 +82,18 @@ def child(act: Callable[[], int | None], after: float = LONG, number: int = sign
         said.seek(0)
         text = said.read().decode(errors="replace")
     status = os.waitstatus_to_exitcode(how)
-    return Ended(status, text, time.monotonic() - begin, used.ru_maxrss / 1024.0, hung)
+    return Ended(status, text, used.ru_utime + used.ru_stime, used.ru_maxrss / 1024.0, hung)
+
+
+def _spent(pid: int, begin: float) -> float:
+    """Time of the processor that a child has had, so that a busy machine makes no hangs [s]."""
+    wall = time.monotonic() - begin
+    try:
+        words = Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()
+    except OSError:
+        return wall
+    cpu = (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
+    return max(cpu, wall / SLOWER)
 
 
 def _be_child(act: Callable[[], int | None], said: int) -> None:

@@ -23,8 +23,8 @@ wire.nodes = [30]
 solver.time_step = ["20 ms"]
 """
 RUN = ("--set", "feed.distance=40 mm", "wire.nodes=40", "output.record_every=0.2 mm")
-SOONER, LATER = 0.05, 12.0
-"""When the signal comes, at random between these [s]."""
+SOONER, LATER = 0.05, 5.0
+"""When the signal comes, at random between these [s of the processor]."""
 
 
 def commands(folder: Path) -> dict[str, tuple[Callable[[], int], Path]]:

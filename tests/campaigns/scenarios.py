@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 import re
+import shutil
 import sys
 import tempfile
 from pathlib import Path
@@ -76,10 +77,11 @@ def main() -> int:
             file, out = folder / "broken.toml", folder / f"out{number}"
             file.write_text(broken(rng.choice(texts), rng), encoding="utf-8")
             ended = child(command("run", file, "--out", out))
-            wrong = "drafts are left" if left_over(folder) else ""
+            wrong = "drafts are left" if not ended.hung and left_over(out) else ""
             if ended.status == 0 and not (out / "figure.png").exists():
                 wrong = "no figure"
             tally.take("run", ended, wrong, [file])
+            shutil.rmtree(out, ignore_errors=True)
     return tally.close()
 
 
