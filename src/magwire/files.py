@@ -106,7 +106,7 @@ def claimed(path: Path, name: str) -> Iterator[None]:
     with _held(lock) as ours:
         if not ours:
             raise InUseError(f"{name} '{path}' is being written by another process.")
-        _sweep(path)
+        clear(path)
         yield
 
 
@@ -115,8 +115,8 @@ def is_left_over(path: Path) -> bool:
     return path.name.startswith(".") and (DRAFT in path.name or path.suffix == ".lock")
 
 
-def _sweep(path: Path) -> None:
-    """Remove the drafts of a file, or all those in a folder."""
+def clear(path: Path) -> None:
+    """Remove the drafts of a file, or all those in a folder, that processes have left."""
     kind = f"*{DRAFT}*" if path.is_dir() else f"{path.stem}.????????{DRAFT}{path.suffix}"
     for draft in (path if path.is_dir() else path.parent).glob(f".{kind}"):
         with suppress(OSError):  # one that is a folder, or on Windows in use

@@ -94,7 +94,8 @@ def main() -> int:
             else:
                 tally.take(kind, ended, wrong)
             after = child(command("run", "straight", *short, "--out", out, "--force"), after=60.0)
-            tally.take("next run", after, "drafts are left" if left_over(out) else "")
+            left = [path for path in left_over(out) if path.parent == out]  # runs/ is the sweep's
+            tally.take("next run", after, f"after {kind}: {left} are left" if left else "")
             shutil.rmtree(out, ignore_errors=True)
     return tally.close()
 

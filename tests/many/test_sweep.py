@@ -145,9 +145,9 @@ def test_ranges_may_say_how_a_file_is_read(tmp_path: Path) -> None:
     (tmp_path / "vessel").mkdir()
     rows = ["x,y,z,radius", *(f"{x},0,0,3" for x in range(0, 101, 5))]
     (tmp_path / "vessel" / "tube.csv").write_text("\n".join(rows))
-    wire = load_scenario("straight").to_toml().split("[wire]")[1].split("[", 1)[0]
+    wire = load_scenario("straight").to_toml().split("[lumen]")[0]
     lumen = '[lumen]\nfile = "tube.csv"\nunits = "mm"\n[feed]\nspeed = "1 mm/s"\n'
-    (tmp_path / "vessel" / "tube.toml").write_text(f"[wire]{wire}{lumen}")
+    (tmp_path / "vessel" / "tube.toml").write_text(wire + lumen)
     file = tmp_path / "scales.toml"
     table = '[sweep]\nscenario = "vessel/tube.toml"\n[sweep.ranges]\n"lumen.scale" = [1.0, 0.5]\n'
     file.write_text(table)

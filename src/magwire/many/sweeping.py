@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from magwire.errors import MagwireError
-from magwire.files import write_whole
+from magwire.files import clear, write_whole
 from magwire.many.job import Job
 from magwire.many.runs import outcomes_of, progress
 from magwire.many.sweep import Sweep
@@ -65,11 +65,13 @@ def carry_out(
     """
     scenarios = sweep.scenarios
     dataset = load(folder / TABLE) if begun(folder, sweep) else blank(sweep)
-    (folder / RUNS if keep else folder).mkdir(parents=True, exist_ok=True)
+    results = folder / RUNS if keep else folder
+    results.mkdir(parents=True, exist_ok=True)
+    clear(results)
     write_whole(folder / SWEEP, sweep.text)
     with Table(dataset, folder / TABLE) as table:
         jobs = [
-            Job(n, scenarios[n].to_toml(), str(folder / RUNS / f"{n:04d}.nc") if keep else None)
+            Job(n, scenarios[n].to_toml(), str(results / f"{n:04d}.nc") if keep else None)
             for n in table.pending
         ]
         with (
