@@ -35,6 +35,8 @@ def info(
         centreline=line,
         lumen_radius=np.full(len(line), 3e-3),
         lumen_branch=np.zeros(len(line), dtype=np.int64),
+        magnet=(0.095, 0.1),
+        way=np.column_stack([line, np.full(len(line), 3e-3)]),
         title=title,
         scenario=scenario,
     )
@@ -68,6 +70,8 @@ def records(run: RunInfo, count: int = 73, *, step: float = 1e-3) -> Iterator[Re
             clearance_midpoint=float(np.nanmin(clearance)),
             tip_force=force,
             tip_offset=min(3e-3, feed / 4),
+            push_force=1.5 * force,
+            guide_torque=-1e-3 * force,
             newton_iterations=2.3,
             stable=True,
             totals=Totals(

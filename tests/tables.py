@@ -31,6 +31,14 @@ def critical_load(case: str) -> float:
     return float(rows[0][1])
 
 
+@lru_cache
+def hard_wall(case: str) -> dict[str, Array]:
+    """Columns of a table of hard_wall/, by their names."""
+    with (DATA / "hard_wall" / f"{case}.csv").open(encoding="utf-8") as file:
+        names, *rows = csv.reader(file)
+    return dict(zip(names, np.array(rows, dtype=np.float64).T, strict=True))
+
+
 figure = curve
 """The numbers of one series of a file of the authors' curves, shape (n, columns)."""
 

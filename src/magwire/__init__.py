@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from magwire.contact import Barrier as Barrier
     from magwire.engine.feed import Feed as Feed
+    from magwire.engine.hold import Hold as Hold
     from magwire.engine.statics import Equilibrium as Equilibrium
     from magwire.errors import ConvergenceError as ConvergenceError
     from magwire.errors import InputError as InputError
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     from magwire.scenario import names as scenario_names
     from magwire.simulation import Simulation as Simulation
     from magwire.vessel import Vessel as Vessel
+    from magwire.wire import Make as Make
     from magwire.wire import Section as Section
     from magwire.wire import Wire as Wire
 
@@ -48,9 +50,11 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Equilibrium": ("magwire.engine.statics", "Equilibrium"),
     "Feed": ("magwire.engine.feed", "Feed"),
     "GradientField": ("magwire.field", "GradientField"),
+    "Hold": ("magwire.engine.hold", "Hold"),
     "InputError": ("magwire.errors", "InputError"),
     "Lumen": ("magwire.lumen", "Lumen"),
     "MagwireError": ("magwire.errors", "MagwireError"),
+    "Make": ("magwire.wire", "Make"),
     "Outcome": ("magwire.many", "Outcome"),
     "Prescribed": ("magwire.navigate", "Prescribed"),
     "Prospect": ("magwire.planning", "Prospect"),
@@ -79,9 +83,11 @@ __all__ = [
     "Equilibrium",
     "Feed",
     "GradientField",
+    "Hold",
     "InputError",
     "Lumen",
     "MagwireError",
+    "Make",
     "Outcome",
     "Prescribed",
     "Prospect",

@@ -120,7 +120,7 @@ def picture(vessel: Vessel, path: Path, wire: str | None) -> None:
     from magwire.plot import vessels
 
     tubes = {name: tube.centreline() for name, tube in vessel.tubes.items()}
-    radius = None if wire is None else 0.5 * parse(wire, "length", "--wire")
+    radius = None if wire is None else 0.5 * parse(wire, "diameter", "--wire")
     try:
         vessels.save(tubes, path, radius)
     except (OSError, ValueError) as error:
@@ -187,7 +187,7 @@ def _table(vessel: Vessel, wire: dict[str, str | None]) -> Iterator[str]:
 
 
 def _verdict(course: survey.Course, wire: dict[str, str | None]) -> str:
-    radius = 0.5 * parse(wire["diameter"], "length", "--wire")
+    radius = 0.5 * parse(wire["diameter"], "diameter", "--wire")
     modulus = wire["modulus"]
     young = 0.0 if modulus is None else parse(modulus, "pressure", "--youngs-modulus")
     found = survey.reach(course, radius, young * math.pi * radius**4 / 4.0)

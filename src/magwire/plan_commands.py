@@ -48,6 +48,10 @@ COLUMNS = {
     "peak_field": "mT",
     "tip_force": "mN",
     "wall_force": "mN",
+    "patch_force": "mN",
+    "force_patch": "mm",
+    "push_force": "mN",
+    "guide_torque": "mN m",
     "clearance": "mm",
     "reason": "",
 }
@@ -82,7 +86,7 @@ def of_file(
         raise InputError(
             "Input --wire must be the wire's diameter, such as '0.6 mm'; received none."
         )
-    _read(words, "diameter", "length", "--wire")  # better said before the file is read
+    _read(words, "diameter", "diameter", "--wire")  # better said before the file is read
     vessel = Vessel.read(path, units, entrance=spot(entrance, "--entrance"), scale=scale)
     lumen = vessel.lumen()
     return lumen, plan(lumen, _wire(words, lumen), demands=_demands(words, Demands()), watch=watch)
@@ -96,8 +100,9 @@ def of_scenario(
     system = job.simulation.system
     lumen, wire = system.lumen, system.wire
     if words["diameter"] is not None:
-        radius = 0.5 * _read(words, "diameter", "length", "--wire")
-        wire = Wire(tuple(replace(part, radius=radius) for part in wire.sections), wire.nodes)
+        radius = 0.5 * _read(words, "diameter", "diameter", "--wire")
+        parts = (replace(part, radius=radius, end_radius=None) for part in wire.sections)
+        wire = Wire(tuple(parts), wire.nodes)
     steered = {
         name: value
         for name in Demands.__dataclass_fields__
@@ -112,6 +117,7 @@ def table(prospects: Sequence[Prospect]) -> Table:
     from rich.markup import escape
     from rich.table import Table
 
+    patch = next((p.force_patch for p in prospects if math.isfinite(p.force_patch)), 0.0)
     shown = Table(box=None, pad_edge=False, header_style="bold")
     for head in (
         "outlet",
@@ -120,7 +126,9 @@ def table(prospects: Sequence[Prospect]) -> Table:
         "fed [mm]",
         "field [mT]",
         "tip force [mN]",
-        "wall force [mN]",
+        "wire force [mN]",
+        f"on {1e3 * patch:.3g} mm [mN]" if patch else "on a patch [mN]",
+        "push [mN]",
     ):
         shown.add_column(escape(head), justify="left" if head in ("outlet", "reached") else "right")
     for head in ("clearance [mm]", "narrowest [mm]", "tightest bend [mm]"):
@@ -135,6 +143,8 @@ def table(prospects: Sequence[Prospect]) -> Table:
             f"{1e3 * p.peak_field:.3g}",
             f"{1e3 * p.tip_force:.3g}",
             f"{1e3 * p.wall_force:.3g}",
+            f"{1e3 * p.patch_force:.3g}",
+            f"{1e3 * p.push_force:.3g}",
             "" if math.isnan(p.clearance) else f"{1e3 * p.clearance:.3g}",
             f"{p.narrowest * 1e3:.3g} at {p.narrowest_at * 1e3:.4g}",
             bend if math.isinf(p.bend.radius) else f"{bend} at {p.bend.arc * 1e3:.4g}",
@@ -180,6 +190,10 @@ def _row(p: Prospect) -> dict[str, str | float | bool]:
         "peak_field": p.peak_field,
         "tip_force": p.tip_force,
         "wall_force": p.wall_force,
+        "patch_force": p.patch_force,
+        "force_patch": p.force_patch,
+        "push_force": p.push_force,
+        "guide_torque": p.guide_torque,
         "clearance": p.clearance,
     }
     numbers = {name: float(f"{1e3 * value:.6g}") for name, value in values.items()}
@@ -196,7 +210,7 @@ def _finite(row: Mapping[str, str | float | bool]) -> dict[str, str | float | bo
 
 def _wire(words: Words, lumen: Lumen) -> Wire:
     """A wire of one material with a magnet at its tip."""
-    radius = 0.5 * _read(words, "diameter", "length", "--wire")
+    radius = 0.5 * _read(words, "diameter", "diameter", "--wire")
     modulus = _read(words, "modulus", "pressure", "--youngs-modulus")
     magnet = MAGNET * radius
     if words["magnet"] is not None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
@@ -24,9 +23,6 @@ Array = NDArray[np.float64]
 PACE = 0.2  # feed between two planned fields, over the lower quartile of the radii of the way
 FINEST = 5e-3  # that feed at most, over the wire's length
 SPEED = 0.01  # wire lengths in a second; there is no inertia
-PART = 0.25  # activation gap at most, over the clearance at the narrowest place
-GAP = 1e-4  # activation gap at most [m]
-HARD = 1e-3  # stiffness of the wall's barrier, over Young's modulus of the wire, at least
 ATTEMPTS = 3  # in one place
 SLACK = 1.1  # feed at most, over the length of the way: a wire may lie on the outside of bends
 
@@ -52,6 +48,10 @@ class Prospect:
         Largest flux density [T].
     tip_force, wall_force
         Largest force of the wall on the tip, and on the whole wire, summed over its nodes [N].
+    patch_force, force_patch
+        Largest force of the wall on a patch of the wire [N], and the length of the patch [m].
+    push_force, guide_torque
+        Largest push [N] and size of the torque [N m] at the guide.
     clearance
         Smallest clearance, also midway between the nodes [m]; NaN if it did not set out.
     reason
@@ -72,6 +72,10 @@ class Prospect:
     peak_field: float
     tip_force: float
     wall_force: float
+    patch_force: float
+    force_patch: float
+    push_force: float
+    guide_torque: float
     clearance: float
     reason: str
     feed: Array = field(repr=False)
@@ -99,8 +103,7 @@ def plan(
     demands
         What the field must keep to, such as its largest value.
     contact
-        The wall's barrier; one that fits the narrowest place and the tightest bend, ``firm_wall``,
-        if left out.
+        The wall's barrier; one that fits the wire and the lumen if left out.
     watch
         Called with the name of each outlet before it is tried.
 
@@ -147,28 +150,6 @@ def fitted(wire: Wire, length: float) -> Wire:
     return Wire((grown, *wire.sections[1:]), count + 1)
 
 
-def firm_wall(wire: Wire, bend: float, gap: float) -> Barrier:
-    """A barrier that bends the wire around a bend while it keeps it off by a quarter of its gap.
-
-    Middles between the nodes cut the inside of a bend: a wall that lets the nodes come much closer
-    than its activation gap would be cut by them. To bend a wire of stiffness EI to a radius rho all
-    along takes forces of EI/rho^3 per length; a wire that cuts bends presses more at few places,
-    so the wall is a thousandth as stiff as the wire's material at least.
-
-    Parameters
-    ----------
-    wire
-        The wire.
-    bend
-        Radius of the bend [m].
-    gap
-        Activation gap of the barrier [m].
-    """
-    line_force = wire.bending_stiffness / bend**3
-    slope = gap * (1.5 * math.log(4.0) + 2.25)  # of its energy at a quarter of its gap, over K
-    return Barrier(max(HARD * wire.body.youngs_modulus, line_force / slope), gap)
-
-
 def _prospect(
     name: str, lumen: Lumen, wire: Wire, demands: Demands, contact: Barrier | None
 ) -> Prospect:
@@ -190,6 +171,10 @@ def _prospect(
         peak_field=0.0,
         tip_force=0.0,
         wall_force=0.0,
+        patch_force=0.0,
+        force_patch=float("nan"),
+        push_force=0.0,
+        guide_torque=0.0,
         clearance=float("nan"),
         reason="",
         feed=none,
@@ -204,8 +189,6 @@ def _prospect(
             reason=f"The wire is {2e3 * wire.radius:.4g} mm wide, the lumen "
             f"{2e3 * nothing.narrowest:.4g} mm at {1e3 * nothing.narrowest_at:.4g} mm.",
         )
-    if contact is None:
-        contact = firm_wall(wire, nothing.bend.radius, min(GAP, PART * room))
     goal = way.length - float(radii[-1])
     long = fitted(wire, SLACK * way.length)
     every = min(FINEST * long.length, PACE * float(np.quantile(radii, 0.25)))
@@ -231,7 +214,6 @@ def _travel(
     if result.status == "complete" and not reached:
         reason = f"All of the wire is fed, and {1e3 * (goal - arc[-1]):.4g} mm are left. {reason}"
     flux = np.linalg.norm(result.field, axis=1)
-    pushes = np.linalg.norm(result.dataset["contact_force"].values, axis=2).sum(axis=1)
     return replace(
         nothing,
         reached=reached,
@@ -239,11 +221,15 @@ def _travel(
         came=float(arc.max()),
         peak_field=float(flux.max()),
         tip_force=result.max_tip_force,
-        wall_force=float(pushes.max()),
+        wall_force=result.max_wall_force,
+        patch_force=result.max_patch_force,
+        force_patch=result.force_patch,
+        push_force=result.max_push_force,
+        guide_torque=result.max_guide_torque,
         clearance=result.smallest_clearance,
         reason=reason,
         feed=result.feed,
         arc=arc,
         flux_density=flux,
-        force=pushes,
+        force=result.wall_force,
     )

@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from magwire.contact import Barrier
 from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
+from magwire.engine.hold import Hold
 from magwire.engine.record import Motion, Record, RunInfo
 from magwire.engine.statics import Equilibrium, find_equilibrium
 from magwire.engine.system import Release, System
@@ -26,11 +27,17 @@ from magwire.wire import Wire
 if TYPE_CHECKING:
     from magwire.results import Result
 
+Array = NDArray[np.float64]
 
 UPDATE_EVERY = 5e-4  # feed between two observations of a navigator that has no wish [m]
+WAY_POINTS = 2001  # of the way to the target, in the description of a run
 UNSTABLE = (
     "The equilibrium at {:.4g} mm of feed is unstable: a wire leaves it, and quasi-static motion "
     "does not tell where to."
+)
+OUTSIDE = (
+    "At {:.4g} mm of feed a point between two nodes is {:.3g} um outside the wall: the wire's edges "
+    "are too long for the bend there; use more nodes."
 )
 
 
@@ -51,6 +58,8 @@ class Simulation:
         Acceleration, shape (3,) [m/s^2].
     fluid_density
         Of what fills the lumen [kg/m^3]; its buoyancy acts against gravity.
+    tip_load
+        Dead force on the tip, which keeps its direction in space, shape (3,) [N].
     release
         How the guide lets go of the wire (P-15): ``"sliding"``, or node by node as in the paper,
         ``"node"``.
@@ -71,9 +80,11 @@ class Simulation:
         damping: float = 0.01,
         gravity: ArrayLike = (0.0, 0.0, 0.0),
         fluid_density: float = 0.0,
+        tip_load: ArrayLike = (0.0, 0.0, 0.0),
         release: Release = "sliding",
     ) -> None:
         pull = array("Simulation", "gravity", gravity, (3,), "m/s^2")
+        load = array("Simulation", "tip_load", tip_load, (3,), "N")
         self.system = System(
             wire=wire,
             lumen=lumen,
@@ -81,6 +92,7 @@ class Simulation:
             damping=damping,
             gravity=(float(pull[0]), float(pull[1]), float(pull[2])),
             fluid_density=fluid_density,
+            tip_load=(float(load[0]), float(load[1]), float(load[2])),
             release=release,
         )
         self.field: FieldSource = UniformField() if field is None else field
@@ -171,6 +183,10 @@ class Simulation:
                     if watch is not None:
                         watch(record)
                     strike()
+                    if record.clearance_along < 0.0:
+                        outside = OUTSIDE.format(1e3 * record.feed, -1e6 * record.clearance_along)
+                        writer.close("not converged", outside)
+                        return writer.result()
                     if not (inertia or record.stable):
                         writer.close("unstable", UNSTABLE.format(1e3 * record.feed))
                         return writer.result()
@@ -190,6 +206,7 @@ class Simulation:
         *,
         start: Equilibrium | None = None,
         twist: float = 0.0,
+        hold: Hold | None = None,
     ) -> Equilibrium:
         """Static equilibrium of the wire at a fixed feed and field (P-16).
 
@@ -206,6 +223,10 @@ class Simulation:
             more than one equilibrium: the start decides which is found.
         twist
             Angle by which the guide turns the wire about its axis [rad].
+        hold
+            Where the far end is held, and how; it is free if left out. It is carried there from
+            where it is in ``start``, at the same feed. Stability and sensitivities are those of the
+            held wire.
 
         Returns
         -------
@@ -227,7 +248,7 @@ class Simulation:
         else:
             flux = array("Simulation", "field", field, (3,), "T")
             source = UniformField((float(flux[0]), float(flux[1]), float(flux[2])))
-        return find_equilibrium(self.system, source, feed, start=start, twist=twist)
+        return find_equilibrium(self.system, source, feed, start=start, twist=twist, hold=hold)
 
     def tip_arc(self, position: ArrayLike) -> float:
         """How far the tip has come on the way to the lumen's target, an arc parameter [m].
@@ -256,10 +277,19 @@ class Simulation:
             centreline=np.concatenate(points),
             lumen_radius=np.concatenate(radii),
             lumen_branch=np.concatenate(tags),
+            magnet=self.system.wire.magnet,
+            way=self._way(),
             title=title,
             scenario=scenario,
             motion=motion,
         )
+
+    def _way(self) -> Array:
+        """Points and radius of the way to the target, densely along it, shape (q, 4) [m]."""
+        if not self.system.lumen.branches:
+            return np.zeros((0, 4))
+        curve = self.system.path.branches[0].curve
+        return curve.at(np.linspace(0.0, curve.length, WAY_POINTS))
 
 
 def _steps(length: float, feed: Feed, time_step: float) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,9 +11,12 @@ from magwire.units import show
 
 if TYPE_CHECKING:
     from magwire.results import Result
+    from magwire.wire import Wire
 
 COLUMN = 20
 """Width of the names of the rows."""
+TORQUE = 1e-5
+"""Torque at the guide, over EI/L, that is worth a word: round-off turns a wire in a plane, too."""
 
 
 def lines(result: Result, *, steered: bool = False, passive: Result | None = None) -> list[str]:
@@ -31,24 +35,51 @@ def lines(result: Result, *, steered: bool = False, passive: Result | None = Non
         "status": result.status,
         **({"tried again": result.message} if result.converged and result.message else {}),
         **_course(result),
-        **_contact(result, passive),
-        **(_steering(result) if steered else {}),
-        **_work(result),
     }
-    return [f"{name:{COLUMN}}{text}" for name, text in rows.items()]
+    shown = [
+        *rows.items(),
+        *_forces(result, passive),
+        *_wall(result).items(),
+        *(_steering(result) if steered else {}).items(),
+        *_work(result).items(),
+    ]
+    return [f"{name:{COLUMN}}{text}" for name, text in shown]
 
 
-def gain(steered: Result, passive: Result) -> str:
-    """What steering gained over pushing alone, in one line."""
+def wire_lines(wire: Wire) -> list[str]:
+    """What the wire is, a line for each section: what was given in other words is converted."""
+    ends = np.cumsum([section.length for section in wire.sections])
+    names = ["wire", *[""] * (len(ends) - 1)]
+    return [
+        f"{name:{COLUMN}}up to {1e3 * end:.4g} mm: {section.describe()}"
+        for name, end, section in zip(names, ends, wire.sections, strict=True)
+    ]
 
-    def change(before: float, after: float) -> str:
-        return f"{1e3 * before:.3g} mN to " + (f"{1e3 * after:.3g} mN" if after else "none")
 
-    peak = change(passive.max_tip_force, steered.max_tip_force)
-    mean = change(passive.mean_tip_force, steered.mean_tip_force)
+def gains(steered: Result, passive: Result) -> list[str]:
+    """What steering gained over pushing alone: on the tip, on the wire, at the guide; a line each.
+
+    Parameters
+    ----------
+    steered, passive
+        The runs.
+    """
+
+    def change(name: str) -> str:
+        before, after = (1e3 * float(getattr(run, name)) for run in (passive, steered))
+        return f"{before:.3g} mN to " + (f"{after:.3g} mN" if after else "none")
+
     fed = [float(run.feed.max(initial=0.0)) for run in (steered, passive)]
     far = f"; over {1e3 * fed[0]:.4g} mm of {1e3 * fed[1]:.4g}" if fed[0] < fed[1] else ""
-    return f"peak tip force from {peak}, mean from {mean}{far}"
+    rows = {
+        "gained, tip": f"peak force from {change('max_tip_force')}, "
+        f"mean from {change('mean_tip_force')}{far}",
+        "gained, wire": f"peak force from {change('max_wall_force')}, "
+        f"on {_patch(steered)} from {change('max_patch_force')}",
+    }
+    if not np.isnan(steered.max_push_force + passive.max_push_force):
+        rows["gained, guide"] = f"peak push from {change('max_push_force')}"
+    return [f"{name:{COLUMN}}{text}" for name, text in rows.items()]
 
 
 def _course(result: Result) -> dict[str, str]:
@@ -73,19 +104,54 @@ def _course(result: Result) -> dict[str, str]:
     return rows
 
 
-def _contact(result: Result, passive: Result | None) -> dict[str, str]:
-    """What the wall and the wire had to do with each other."""
+def _forces(result: Result, passive: Result | None) -> Iterator[tuple[str, str]]:
+    """Who touched the wall, and all forces, of tip, wire and guide apart."""
 
     def force(newtons: float) -> str:
         return f"{newtons:.4g} N, normalised {newtons / result.force_scale:.4g}"
 
+    def torque(value: float) -> str:
+        return f"{value:.4g} N m"
+
+    yield "tip contact-free", "yes, at every step" if result.tip_contact_free else "no"
+    yield "wire contact-free", _wire_free(result)
+    least = TORQUE * result.force_scale * float(result.dataset.attrs["length_scale"])
+    for name, attribute, show_as in (
+        ("peak tip force", "max_tip_force", force),
+        ("mean tip force", "mean_tip_force", force),
+        ("peak wire force", "max_wall_force", force),
+        (f"  on {_patch(result)} of it", "max_patch_force", force),
+        ("  on the magnet", "max_magnet_force", force),
+        ("longest contact", "longest_contact", _short),
+        ("peak push at guide", "max_push_force", force),
+        ("peak guide torque", "max_guide_torque", torque),
+    ):
+        values = [float(getattr(run, attribute)) for run in (result, passive) if run is not None]
+        if np.isnan(values).all() or (show_as is torque and max(values) < least):
+            continue
+        for label, value in zip((name, "  not steered"), values, strict=False):
+            yield label, show_as(value)
+
+
+def _wire_free(result: Result) -> str:
+    """Whether the wall pressed on the wire anywhere, and by how much."""
+    if result.wire_contact_free:
+        return "yes, at every step"
+    free = "no, though its tip is" if result.tip_contact_free else "no"
+    total, patch = 1e3 * result.max_wall_force, 1e3 * result.max_patch_force
+    return f"{free}: up to {total:.3g} mN in all, {patch:.3g} mN on {_patch(result)}"
+
+
+def _patch(result: Result) -> str:
+    """The length of wire that patch forces are of."""
+    return _short(result.force_patch)
+
+
+def _wall(result: Result) -> dict[str, str]:
+    """How near wire and wall came to each other."""
     first, clearance = result.first_contact, result.smallest_clearance
     length = float(result.dataset.attrs["length_scale"])
     return {
-        "peak tip force": force(result.max_tip_force),
-        **({"  not steered": force(passive.max_tip_force)} if passive else {}),
-        "mean tip force": force(result.mean_tip_force),
-        **({"  not steered ": force(passive.mean_tip_force)} if passive else {}),
         "smallest clearance": "none, no wall" if np.isnan(clearance) else f"{clearance:.3e} m",
         "first contact": "none"
         if first is None
@@ -95,11 +161,8 @@ def _contact(result: Result, passive: Result | None) -> dict[str, str]:
 
 def _steering(result: Result) -> dict[str, str]:
     """How well it was steered."""
-    touched = result.first_contact is not None
-    behind = "the wire behind it does" if touched else "nor does the wire behind it"
     scale = float(result.dataset.attrs["field_scale"])  # NaN without a magnet
     rows = {
-        "contact-free": f"yes, the tip never touches; {behind}" if result.contact_free else "no",
         "largest tip offset": _short(result.largest_tip_offset),
         "peak field": show(result.peak_field, "flux_density")
         + ("" if np.isnan(scale) else f", normalised {result.peak_field / scale:.4g}"),

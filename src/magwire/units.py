@@ -12,6 +12,7 @@ import math
 import re
 from dataclasses import dataclass
 from decimal import Decimal
+from fractions import Fraction
 
 from magwire.errors import InputError, shortened
 
@@ -34,23 +35,35 @@ class Dimension:
     example
         What a well-formed value looks like.
     units
-        Factor of each unit to SI.
+        Factor of each unit to SI; a fraction where no short decimal number will do.
     preferred
         Units that ``show`` picks from, largest first; the last one serves for what is smaller.
     """
 
     name: str
     example: str
-    units: dict[str, float]
+    units: dict[str, float | Fraction]
     preferred: tuple[str, ...]
 
 
-_LENGTH = {"m": 1.0, "dm": 0.1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "in": 0.0254}
-_TIME = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0}
-_FLUX = {"T": 1.0, "mT": 1e-3, "uT": 1e-6, "G": 1e-4, "kG": 0.1}
+_LENGTH: dict[str, float | Fraction] = {
+    "m": 1.0,
+    "dm": 0.1,
+    "cm": 1e-2,
+    "mm": 1e-3,
+    "um": 1e-6,
+    "nm": 1e-9,
+}
+_LENGTH |= {"in": 0.0254, "inch": 0.0254}
+_FRENCH: dict[str, float | Fraction] = {
+    "Fr": Fraction(1, 3000)
+}  # French gauge: thirds of a millimetre, of a diameter
+_TIME: dict[str, float | Fraction] = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0}
+_FLUX: dict[str, float | Fraction] = {"T": 1.0, "mT": 1e-3, "uT": 1e-6, "G": 1e-4, "kG": 0.1}
 
 DIMENSIONS: dict[str, Dimension] = {
     "length": Dimension("length", "5 mm", _LENGTH, ("mm",)),
+    "diameter": Dimension("diameter", "0.6 mm", _LENGTH | _FRENCH, ("mm",)),
     "time": Dimension("time", "10 ms", _TIME, ("s", "ms")),
     "speed": Dimension(
         "speed",
@@ -110,6 +123,41 @@ DIMENSIONS: dict[str, Dimension] = {
     "rate_squared": Dimension(
         "squared rate", "1 1/s^2", {"1/s^2": 1.0, "rad^2/s^2": 1.0, "1/ms^2": 1e6}, ("1/s^2",)
     ),
+    "twist": Dimension(
+        "twist per length",
+        "100 rad/m",
+        {
+            "rad/m": 1.0,
+            "rad/mm": 1e3,
+            "1/m": 1.0,
+            "deg/m": math.pi / 180.0,
+            "deg/mm": math.pi / 0.18,
+            "turn/m": 2.0 * math.pi,
+        },
+        ("rad/m",),
+    ),
+    "bending_stiffness": Dimension(
+        "bending stiffness",
+        "20 N mm^2",
+        {
+            "N m^2": 1.0,
+            "N*m^2": 1.0,
+            "Nm^2": 1.0,
+            "N mm^2": 1e-6,
+            "N*mm^2": 1e-6,
+            "Nmm^2": 1e-6,
+            "mN m^2": 1e-3,
+            "uN m^2": 1e-6,
+            "mN mm^2": 1e-9,
+        },
+        ("N mm^2", "mN mm^2"),
+    ),
+    "mass_per_length": Dimension(
+        "mass per length",
+        "1.2 g/m",
+        {"kg/m": 1.0, "g/m": 1e-3, "mg/mm": 1e-3, "g/cm": 0.1, "mg/m": 1e-6},
+        ("g/m",),
+    ),
     "force": Dimension("force", "1 mN", {"N": 1.0, "mN": 1e-3, "uN": 1e-6, "nN": 1e-9}, ("mN",)),
     "dimensionless": Dimension("none", "0.5", {"": 1.0, "1": 1.0}, ("",)),
 }
@@ -160,7 +208,7 @@ def parse(value: object, dimension: str, name: str = "") -> float:
         raise InputError(_wrong_unit(what, kind, unit, text))
     # Decimal arithmetic: "0.6 mm" is 0.0006 exactly, not 0.0006 and some rounding.
     try:
-        number = float(Decimal(match[1]) * Decimal(repr(kind.units[unit])))
+        number = float(Decimal(match[1]) * _exact(kind.units[unit]))
     except ArithmeticError:  # an exponent that is beyond even a decimal number's
         number = 0.0 if "e-" in match[1].lower() else math.inf
     if not math.isfinite(number):
@@ -174,7 +222,7 @@ def show(value: float, dimension: str) -> str:
     The text is short (six digits); ``write`` gives the one that reads back to the same number.
     """
     unit = _customary(value, DIMENSIONS[dimension])
-    number = value / DIMENSIONS[dimension].units[unit]
+    number = value / float(DIMENSIONS[dimension].units[unit])
     return f"{number:.6g} {unit}".rstrip()
 
 
@@ -183,11 +231,18 @@ def write(value: float, dimension: str) -> str:
     kind = DIMENSIONS[dimension]
     unit = _customary(value, kind)
     for digits in (6, 12, 15, 16, 17):
-        text = f"{value / kind.units[unit]:.{digits}g} {unit}".rstrip()
+        text = f"{value / float(kind.units[unit]):.{digits}g} {unit}".rstrip()
         if parse(text, dimension) == value:
             return text
     base = next(name for name, factor in kind.units.items() if factor == 1.0)
     return f"{value!r} {base}".rstrip()
+
+
+def _exact(factor: float | Fraction) -> Decimal:
+    """A factor as decimal number, to the digits that it is written with."""
+    if isinstance(factor, Fraction):
+        return Decimal(factor.numerator) / Decimal(factor.denominator)
+    return Decimal(repr(factor))
 
 
 def _customary(value: float, kind: Dimension) -> str:

@@ -11,7 +11,7 @@ from magwire.engine.sampling import sample
 from magwire.engine.statics import Equilibrium
 from magwire.field import UniformField
 from magwire.kernels.arrays import State
-from magwire.kernels.assembly import update_frames
+from magwire.kernels.frames import update_frames
 from magwire.kernels.march import Plan, Tally, march
 from magwire.verify.wires import order
 from tangent import copy, free_rows, mass, stiffness

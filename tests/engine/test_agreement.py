@@ -26,7 +26,9 @@ def test_quasi_static_march_and_slow_dynamics(name: str) -> None:
 @pytest.mark.parametrize("push", [0.2, 0.3, 0.5, 0.7])
 def test_equilibrium_and_slow_dynamics(push: float) -> None:
     run = passive("half-circle")
-    sim = Simulation(paper_wire(), lumen("half-circle"), contact=Barrier(wall="centreline"))
+    sim = Simulation(
+        paper_wire(), lumen("half-circle"), contact=Barrier(1e3, 1e-4, wall="centreline")
+    )
     i = int(np.abs(run.X - push).argmin())
     state = sim.equilibrium(run.X[i] * L)
     assert state.stable
@@ -39,7 +41,7 @@ def test_surface_of_a_wide_tube_and_centreline_of_a_narrow_one(push: float) -> N
     """The wall keeps off the surface by R, or the axis by R - r (P-12)."""
     states = []
     for radius, wall in ((3e-3, "surface"), (2.4e-3, "centreline")):
-        barrier = Barrier(wall=wall)  # type: ignore[arg-type]
+        barrier = Barrier(1e3, 1e-4, wall=wall)  # type: ignore[arg-type]
         sim = Simulation(paper_wire(), Lumen.half_circle(0.025, radius), contact=barrier)
         states.append(sim.equilibrium(push * L, [0.0, 4e-3, 2e-3]))
     first, second = states

@@ -72,7 +72,7 @@ def test_a_failed_step_leaves_no_trace() -> None:
 def test_a_step_that_feeds_several_edges_is_done_in_parts(time_step: float) -> None:
     """Two or ten edges fed in one step: right in the end, and without a failure on the way."""
     system = Simulation(
-        paper_wire(), lumen("half-circle"), contact=Barrier(wall="centreline")
+        paper_wire(), lumen("half-circle"), contact=Barrier(1e3, 1e-4, wall="centreline")
     ).system
     large = March(system, UniformField(), Feed(1e-3, 0.05), time_step=time_step)
     assert large.advance(10**6), large.message

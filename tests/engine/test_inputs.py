@@ -191,6 +191,6 @@ def test_what_is_at_the_edge_is_accepted() -> None:
     assert wire(magnetized_tip=0.1).sections[0].length == 0.1
     assert Feed.table([0.0, 10.0, 20.0], [1e-3, 0.0, -1e-3]).largest == pytest.approx(5e-3)
     thick = Simulation(
-        wire(radius=5e-3), Lumen.straight(0.1, 3e-3), contact=Barrier(wall="centreline")
+        wire(radius=5e-3), Lumen.straight(0.1, 3e-3), contact=Barrier(1e3, 1e-4, wall="centreline")
     )
     assert thick.system.wire.radius == 5e-3

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from magwire.contact import Barrier
+from magwire.errors import InputError
 from magwire.field import FieldSource, GradientField, UniformField
 from magwire.lumen import Lumen
 from magwire.simulation import Simulation
-from magwire.wire import Parameter, Section, Wire, lay_out, mesh_rates
+from magwire.wire import Parameter, Section, Stiffness, Wire, lay_out, mesh_rates
 from wires import L, lumen
 
 STUFF = {"youngs_modulus": 3e6, "shear_modulus": 1e6, "density": 2000.0}
@@ -36,14 +37,19 @@ def simulation(sections: tuple[Section, ...], where: str, wall: str) -> Simulati
     return Simulation(
         Wire(sections, 60),
         tube,
-        contact=Barrier(wall=wall),  # type: ignore[arg-type]
+        contact=Barrier(1e3, 1e-4, wall=wall),  # type: ignore[arg-type]
         gravity=(1.0, -3.0, -9.0),
         fluid_density=900.0,
     )
 
 
-def changed(parameter: Parameter, index: tuple[int, ...], step: float) -> tuple[Section, ...]:
-    sections = list(SECTIONS)
+def changed(
+    parameter: Parameter,
+    index: tuple[int, ...],
+    step: float,
+    parts: tuple[Section, ...] = SECTIONS,
+) -> tuple[Section, ...]:
+    sections = list(parts)
     value = np.array(getattr(sections[index[0]], parameter), dtype=np.float64)
     value[index[1:]] += step
     new = tuple(value.tolist()) if value.ndim else float(value)
@@ -77,6 +83,57 @@ def test_against_differences(case: str, parameter: Parameter) -> None:
         quotient = (ends[0] - ends[1]) / (2.0 * step)
         size = max(np.abs(found).max(), 1e-12)
         np.testing.assert_allclose(found[(..., *index)], quotient, atol=2e-5 * size)
+
+
+def twisted_and_tapered() -> tuple[Section, ...]:
+    """A taper, a section of stated stiffness, and a magnet that is twisted at rest."""
+    first, second, third = SECTIONS
+    stated = Stiffness(2e-7, 1.5e-7, 4.0)
+    return (
+        replace(first, end_radius=0.4e-3),
+        replace(second, youngs_modulus=None, shear_modulus=None, stiffness=stated),
+        replace(third, rest_twist=60.0, rest_curvature=(10.0, 0.0)),
+    )
+
+
+@pytest.mark.parametrize("parameter", ["magnetization", "youngs_modulus", "radius"])
+def test_of_tapers_and_stated_stiffnesses(parameter: Parameter) -> None:
+    """By what a section has, the others being what they are."""
+    parts = list(twisted_and_tapered())
+    if parameter == "youngs_modulus":
+        parts[1] = SECTIONS[1]
+    if parameter == "radius":
+        parts[0] = SECTIONS[0]
+    state = simulation(tuple(parts), "open", "surface").equilibrium(0.0704, FIELD)
+    found = state.sensitivity("tip", wrt=parameter)
+    step = STEPS[parameter]
+    for index in np.ndindex(*found.shape[1:]):
+        ends = [
+            simulation(
+                changed(parameter, index, sign * step, tuple(parts)), "open", "surface"
+            ).equilibrium(0.0704, FIELD, start=state)
+            for sign in (1.0, -1.0)
+        ]
+        quotient = (ends[0].tip - ends[1].tip) / (2.0 * step)
+        size = np.abs(found).max()
+        np.testing.assert_allclose(found[(..., *index)], quotient, atol=2e-5 * size)
+
+
+@pytest.mark.parametrize(
+    ("parameter", "section", "why"),
+    [
+        ("youngs_modulus", 1, "given by its stiffness"),
+        ("shear_modulus", 1, "given by its stiffness"),
+        ("radius", 0, "tapered"),
+    ],
+)
+def test_a_parameter_that_a_section_does_not_have(
+    parameter: Parameter, section: int, why: str
+) -> None:
+    state = simulation(twisted_and_tapered(), "open", "surface").equilibrium(0.0704)
+    words = f"received '{parameter}', and section {section} of the wire is {why}."
+    with pytest.raises(InputError, match=words):
+        state.sensitivity("tip", wrt=parameter)
 
 
 def test_stiffness_and_magnet_cancel() -> None:

@@ -35,7 +35,7 @@ class Affine:
 
 
 def in_contact(release: str = "sliding") -> tuple[Simulation, float]:
-    barrier = Barrier(wall="centreline")
+    barrier = Barrier(1e3, 1e-4, wall="centreline")
     sim = Simulation(paper_wire(), lumen("half-circle"), contact=barrier, release=release)
     return sim, 0.0404
 

@@ -27,7 +27,7 @@ def curved(nodes: int = 40) -> Wire:
 def test_a_round_straight_wire_turns_as_a_whole(where: str, turns: float) -> None:
     lumens = {"open space": Lumen.open_space, "straight": lambda: Lumen.straight(L, 3e-3)}
     tube = lumens[where]() if where in lumens else lumen(where)
-    sim = Simulation(paper_wire(), tube, contact=Barrier(wall="centreline"))
+    sim = Simulation(paper_wire(), tube, contact=Barrier(1e3, 1e-4, wall="centreline"))
     plain, turned = sim.equilibrium(0.05), sim.equilibrium(0.05, twist=turns * TURN)
     assert turned.twist == turns * TURN
     np.testing.assert_allclose(turned.positions, plain.positions, atol=1e-9 * L)
@@ -36,7 +36,7 @@ def test_a_round_straight_wire_turns_as_a_whole(where: str, turns: float) -> Non
 
 def test_turning_in_time_reaches_the_tip() -> None:
     """Four turns while standing still: each edge follows, in whole turns."""
-    system = System(paper_wire(60), Lumen.straight(L, 3e-3), Barrier(wall="centreline"))
+    system = System(paper_wire(60), Lumen.straight(L, 3e-3), Barrier(1e3, 1e-4, wall="centreline"))
     course = Feed.table(
         [0.0, 30.0, 30.02, 50.0, 60.0],
         [1e-3, 1e-3, 0.0, 0.0, 0.0],
@@ -64,7 +64,7 @@ def test_the_tip_of_a_curved_wire_goes_round() -> None:
 def test_many_turns_in_a_bend_stay_continuous() -> None:
     """A curved wire in a bend winds up and lets go, but no step loses count of a turn."""
     wire = Wire.uniform(L, 0.6e-3, 3e6, 1e6, 2000.0, 60, rest_curvature=(30.0, 0.0))
-    system = System(wire, lumen("half-circle"), Barrier(wall="centreline"))
+    system = System(wire, lumen("half-circle"), Barrier(1e3, 1e-4, wall="centreline"))
     course = Feed.table(
         [0.0, 39.98, 40.0, 70.0, 90.0],
         [1e-3, 1e-3, 0.0, 0.0, 0.0],

@@ -227,8 +227,8 @@ def test_faults_by_the_module(tmp_path: Path) -> None:
     assert seen.returncode == 1
     assert seen.stdout == ""
     assert seen.stderr.splitlines() == [
-        "Input wire.nodes must be at least 4; received 3.",
         "Input wire.radius must be positive; received -1 mm.",
+        "Input wire.nodes must be at least 4; received 3.",
     ]
     assert files_in(tmp_path) == []
 

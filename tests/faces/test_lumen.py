@@ -110,7 +110,7 @@ def test_a_converted_table_is_part_of_a_scenario(file: Path, tmp_path: Path) -> 
         (["convert", "{file}", "{folder}/a.stl", "--units", "mm"], "must end in one of .vtp, .nc"),
         (["convert", "{file}", "{file}", "--units", "mm"], "exists already; use --force"),
         (["convert", "{file}", "{folder}/a.nc"], "does not state them; its numbers look like"),
-        (["inspect", "{file}", "--wire", "1 s"], "--wire needs a unit of length"),
+        (["inspect", "{file}", "--wire", "1 s"], "--wire needs a unit of diameter"),
         (["inspect", "{file}", "--picture", "{folder}/a.xyz"], "cannot be written: "),
         (["convert", "{file}", "{folder}/no/a.nc", "--units", "mm"], "cannot be written: no such"),
     ],

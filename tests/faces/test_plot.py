@@ -13,7 +13,7 @@ from matplotlib.image import imread
 
 from magwire import plot
 from magwire.engine.record import RunInfo
-from magwire.plot import shapes
+from magwire.plot import loads, shapes
 from magwire.results import Result, Writer
 from records import helix, info, records
 
@@ -46,12 +46,13 @@ def test_settings_of_others_are_left_alone() -> None:
     assert dict(mpl.rcParams) == before
 
 
-def test_planar_case_has_four_flat_panels() -> None:
+def test_planar_case_has_flat_panels() -> None:
     figure = plot.draw(made(info(title="Half-circle")))
     axes = figure.get_axes()
     assert not any(ax.name == "3d" for ax in axes)
     labels = {ax.get_ylabel() for ax in axes}
     assert {"y [mm]", "field [mT]", "clearance [mm]", r"tip force  $\mathcal{F}$"} <= labels
+    assert {"along the lumen [mm]", "forces [mN]", "wall force [N/m]"} <= labels
     assert any("Half-circle" in ax.get_title(loc="left") for ax in axes)
 
 
@@ -142,4 +143,50 @@ def test_wide_lumen_shares_its_column() -> None:
     data = made(info(line, title="Tube"))
     assert shapes.aspect(data) > 5.0
     panels = [ax for ax in plot.draw(data).get_axes() if ax.get_title(loc="left")]
-    assert len(panels) == 4
+    assert len(panels) == 6
+
+
+def test_map_shows_where_along_the_lumen_the_wall_is_pressed() -> None:
+    data = made(info())
+    (ax,) = (a for a in plot.draw(data).get_axes() if a.get_ylabel() == "along the lumen [mm]")
+    (image,) = ax.get_images()
+    shown = np.asarray(image.get_array())
+    assert shown.shape == (data.sizes["arc"], 72)
+    pressed = 1e3 * data["arc"].values[shown.argmax(axis=0)]
+    fed = (np.arange(72) + 1.0)[14:]  # the tip slides along the centreline and carries all
+    assert pressed[14:] == pytest.approx(fed, abs=2.2)
+    assert not shown[:, :12].any()
+
+
+def test_map_of_a_tree_tells_of_what_presses_in_other_branches() -> None:
+    def words(data: xr.Dataset) -> str:
+        axes = plot.draw(data).get_axes()
+        (ax,) = (a for a in axes if a.get_ylabel() == "along the lumen [mm]")
+        return " ".join(text.get_text() for text in ax.texts)
+
+    data = made(info())
+    assert words(data) == "dashed: length fed"
+    data["lumen_force"] = 0.9 * data["lumen_force"]
+    assert "not shown: what presses" in words(data)
+    data["lumen_force"] = 0.0 * data["lumen_force"]
+    assert words(data) == "all in other branches"
+    data["wall_force"] = 0.0 * data["wall_force"]
+    assert words(data) == "nothing touches the wall"
+
+
+def test_map_of_a_retraction_keeps_the_largest_force() -> None:
+    push = np.array([0.0, 0.1, 0.2, 0.1, 0.0])
+    values = np.array([[0.0], [1.0], [2.0], [3.0], [0.5]])
+    last, found = loads.columns_of(push, values)
+    assert last == 0.2
+    assert found[:, 0].tolist() == [0.5, 0.5, 3.0, 2.0]
+
+
+def test_both_runs_have_a_map_on_one_scale() -> None:
+    data, passive = made(info()), made(info())
+    data["lumen_force"] = 0.5 * data["lumen_force"]
+    axes = plot.draw(data, passive).get_axes()
+    maps = [ax.get_images()[0] for ax in axes if ax.get_images()]
+    assert len(maps) == 2
+    assert maps[0].get_clim() == maps[1].get_clim()
+    assert maps[0].get_clim()[1] == passive["lumen_force"].values.max()

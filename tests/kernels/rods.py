@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from magwire.contact import Barrier
 from magwire.engine.system import System
 from magwire.kernels.arrays import Field, Motion, Mouth, Rod, State
-from magwire.kernels.assembly import assemble, update_frames
+from magwire.kernels.assembly import assemble
+from magwire.kernels.frames import update_frames
 from magwire.kernels.hinge import reference_twist
 from magwire.lumen import Lumen
 from magwire.wire import Wire

@@ -7,7 +7,7 @@ import cmath
 import numpy as np
 import pytest
 
-from magwire.kernels.barrier import barrier
+from magwire.kernels.wall.barrier import barrier
 
 GAPS = [1e-3, 0.1, 2.0]
 PARTS = [1e-12, 1e-6, 1e-3, 0.1, 0.5, 0.9, 0.999]

@@ -10,7 +10,7 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from magwire.kernels.centreline import LumenArrays
-from magwire.kernels.collision import CLOSEST, travel
+from magwire.kernels.wall.collision import CLOSEST, travel
 from magwire.lumen import Lumen
 
 from .rods import Array

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.ndimage import distance_transform_cdt
 
-from magwire.kernels.seeds import spread
+from magwire.kernels.wall.seeds import spread
 
 
 @pytest.mark.parametrize("held", [1, 5, 200])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from magwire.kernels.gap import gap_jet, gap_value
+from magwire.kernels.wall.gap import gap_jet, gap_value
 from magwire.lumen import Branch, Lumen
 
 from .tubes import RADIUS, around

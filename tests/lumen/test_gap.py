@@ -106,7 +106,7 @@ def test_deep_outside_the_wall_is_never_free(lumen: Lumen) -> None:
 
 
 def test_arrays_in_other_units_give_the_same_gap(lumens: dict[str, Lumen]) -> None:
-    from magwire.kernels.gap import gap_jet
+    from magwire.kernels.wall.gap import gap_jet
 
     scale = 0.1
     for lumen in lumens.values():

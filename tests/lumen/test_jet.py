@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from magwire.kernels.gap import gap_jet, gap_value
+from magwire.kernels.wall.gap import gap_jet, gap_value
 from magwire.lumen import Branch, Lumen
 
 from .tubes import RADIUS, around

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from magwire.errors import InputError
-from magwire.kernels.gap import work_many
+from magwire.kernels.wall.gap import work_many
 from magwire.lumen import Branch, Lumen
 
 from .tubes import RADIUS, around

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from magwire.errors import InputError
-from magwire.kernels.gap import gap_jet, gap_value, work_many
+from magwire.kernels.wall.gap import gap_jet, gap_value, work_many
 from magwire.lumen import Branch, Lumen
 
 from .trees import LINES, RADIUS, angled, junctions, shared

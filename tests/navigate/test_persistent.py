@@ -10,7 +10,7 @@ from magwire.navigate.persistent import PersistentNavigator, Ways
 from magwire.scenario import load, schedule_of
 
 TREE = load("left-branch").lumen.build()
-CONTACT = mw.Barrier(wall="centreline")
+CONTACT = mw.Barrier(1e3, 1e-4, wall="centreline")
 
 
 def wire(magnetization: float) -> mw.Wire:

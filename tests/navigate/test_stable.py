@@ -146,7 +146,9 @@ def test_a_longer_wire_is_steered_like_a_shorter_one() -> None:
     """What lies far behind the tip, still on the guide, is no reason for another field."""
     course = []
     for wire in (paper_wire(), fitted(paper_wire(), 0.22)):
-        run = Simulation(wire, Lumen.half_circle(0.025, 3e-3), contact=Barrier(wall="centreline"))
+        run = Simulation(
+            wire, Lumen.half_circle(0.025, 3e-3), contact=Barrier(1e3, 1e-4, wall="centreline")
+        )
         navigator = StableNavigator(run.system, plan_every=5e-4)
         course.append(navigator.plan(observation(0.0), 0.03))
     short, long = (schedule.at(np.arange(0.005, 0.03, 1e-3)) for schedule in course)
@@ -161,6 +163,39 @@ def test_a_limit_on_the_field_is_named_with_the_place() -> None:
     assert "the tip needs" in result.message
     assert "the limit is 15 mT" in result.message
     assert 0.0 < float(result.dataset["feed"][-1]) < 0.072
+    assert 14.9e-3 < np.linalg.norm(result.field, axis=1).max() <= 15e-3
+
+
+@pytest.mark.parametrize(
+    ("needed", "words"),
+    [
+        (25e-3, "needs 25 mT; the limit is 20 mT."),
+        (20.004e-3, "needs 20.004 mT; the limit is 20 mT."),
+        (20e-3 * (1.0 + 1e-13), "needs 20.000000000002 mT; the limit is 20 mT."),
+    ],
+)
+def test_a_refusal_shows_by_how_much_a_limit_is_too_low(needed: float, words: str) -> None:
+    assert str(Demands(max_field=20e-3).exceeded("There", needed)) == f"There the tip {words}"
+
+
+def test_a_wire_made_stiffer_is_kept_to_the_limit() -> None:
+    """A larger margin asks for more field than there may be: what comes of it is within the limit.
+
+    So it is where the wire was lost and is stiffened before the next try.
+    """
+    limit = 10e-3
+    system = simulation("half-circle", paper_wire()).system
+    navigator = StableNavigator(system, demands=Demands(max_field=limit))
+    course = navigator.plan(observation(0.0), 0.014)
+    assert np.linalg.norm(course.flux_density, axis=1).max() <= limit
+    pilot, last = navigator._pilot, navigator._knots[-1]
+    navigator.model.return_to(last.memory)
+    assert last.view is not None
+    pilot._margin = 20.0 * last.view.eigenvalue
+    before = np.linalg.norm(last.flux)
+    stiffer = pilot._improve(last.view, last.flux, 5e-4)
+    assert before < np.linalg.norm(stiffer.flux) / navigator.demands.weakening <= limit
+    np.testing.assert_array_equal(navigator.model.flux, stiffer.flux)
 
 
 def test_a_tip_that_would_touch_is_refused_whatever_the_clearance() -> None:

@@ -67,7 +67,7 @@ def test_field_across_the_tip_is_that_of_the_authors() -> None:
         L, 0.6e-3, 3e6, 1e6, 2000.0, 100, magnetized_tip=4.0 * L / 99.0, magnetization=128e3
     )
     entry = 0.15 * L
-    system = System(wire, lumen("authors-half-circle"), Barrier(wall="centreline"))
+    system = System(wire, lumen("authors-half-circle"), Barrier(1e3, 1e-4, wall="centreline"))
     navigator = NewtonNavigator(system)
     assert navigator.model.feed_to(entry)
     course = navigator.plan(observation(entry), entry + 0.04)

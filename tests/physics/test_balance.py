@@ -82,7 +82,7 @@ def test_everything_is_in_balance(case: str) -> None:
     sim = Simulation(
         wire(),
         where(),
-        contact=Barrier(wall="centreline"),
+        contact=Barrier(1e3, 1e-4, wall="centreline"),
         field=field,
         gravity=GRAVITY,
         fluid_density=FLUID,

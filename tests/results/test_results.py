@@ -12,9 +12,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from magwire.errors import ResultError
+from magwire.errors import InputError, ResultError
 from magwire.results import Result, Writer
-from magwire.results.contract import CONSTANTS, VARIABLES
+from magwire.results.contract import CONSTANTS, DERIVED, VARIABLES
+from magwire.summary import lines
 from records import info, records
 
 TESTS = Path(__file__).parents[1]
@@ -32,12 +33,13 @@ def written(path: Path | None, count: int = 73, status: str = "complete") -> Res
 def test_file_has_the_contract(tmp_path: Path) -> None:
     written(tmp_path / "result.nc")
     with xr.open_dataset(tmp_path / "result.nc", engine="h5netcdf") as data:
-        assert set(data.variables) == set(VARIABLES) | set(CONSTANTS)
-        for name, variable in (VARIABLES | CONSTANTS).items():
+        assert set(data.variables) == set(VARIABLES) | set(DERIVED) | set(CONSTANTS)
+        for name, variable in (VARIABLES | DERIVED | CONSTANTS).items():
             assert data[name].dims == variable.dims
             assert data[name].attrs["units"] == variable.units
             assert data[name].attrs["long_name"] == variable.long_name
-        assert data.sizes == {"time": 73, "node": 20, "xyz": 3, "centreline_point": 60}
+        lengths = {"time": 73, "node": 20, "xyz": 3, "arc": 38, "centreline_point": 60}
+        assert data.sizes == lengths
         assert data.attrs["status"] == "complete"
         assert data.attrs["title"] == "Half-circle"
         assert data.attrs["steps"] == 7200
@@ -66,6 +68,62 @@ def test_save_and_load(tmp_path: Path) -> None:
     xr.testing.assert_equal(result.dataset, Result.load(tmp_path).dataset)
     assert again.status == "complete"
     assert again.max_tip_force == result.max_tip_force
+
+
+def test_forces_of_a_result() -> None:
+    result = written(None)
+    force = np.linalg.norm(result.contact_force, axis=2)
+    assert result.force_patch == pytest.approx(2.0 * 0.1 / 19)  # long edges
+    assert result.max_wall_force == pytest.approx(force.sum(axis=1).max())
+    assert result.max_patch_force == pytest.approx(result.max_tip_force)
+    assert result.max_magnet_force == pytest.approx(result.max_tip_force)
+    assert result.max_push_force == pytest.approx(1.5 * result.max_tip_force)
+    assert result.max_guide_torque == pytest.approx(1e-3 * result.max_tip_force)
+    assert result.force_per_length.shape == (73, 20)
+    assert 0.0 < result.longest_contact < result.force_patch
+    assert result.largest_force_over(1.0) == pytest.approx(result.wall_force)
+    assert not result.tip_contact_free
+    assert not result.wire_contact_free
+    with pytest.raises(InputError, match=r"length of Result\.largest_force_over must be positive"):
+        result.largest_force_over(0.0)
+
+
+def test_contact_of_the_body_alone() -> None:
+    data = written(None).dataset
+    data.attrs["max_tip_force"] = 0.0
+    result = Result(data)
+    assert result.tip_contact_free
+    assert result.contact_free
+    assert not result.wire_contact_free
+
+
+def older(result: Result) -> xr.Dataset:
+    """A result as it was written before there were forces along the wire."""
+    data = result.dataset.drop_vars(["arc", "way", *DERIVED, "push_force", "guide_torque"])
+    for name in ("force_patch", "magnet_begin", "magnet_end"):
+        del data.attrs[name]
+    return data
+
+
+def test_an_older_file_gets_what_follows_from_it(tmp_path: Path) -> None:
+    now = written(None)
+    older(now).to_netcdf(tmp_path / "result.nc", engine="h5netcdf")
+    result = Result.load(tmp_path)
+    for name in ("wall_force", "patch_force", "force_per_length", "contact_length", "lumen_force"):
+        xr.testing.assert_allclose(result.dataset[name], now.dataset[name])
+    assert np.isnan(result.max_push_force)
+    assert np.isnan(result.max_magnet_force)
+    result.plot(tmp_path / "a.png")
+    assert "not known" not in "".join(lines(result, passive=now))
+
+
+def test_an_older_file_of_a_tree_has_no_forces_along_its_way() -> None:
+    data = older(written(None))
+    data["lumen_branch"][30:] = 1
+    result = Result(data)
+    assert "lumen_force" not in result.dataset
+    assert result.max_wall_force > 0.0
+    result.plot()
 
 
 def test_figures_of_a_result() -> None:

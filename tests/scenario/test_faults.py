@@ -604,7 +604,40 @@ FILES = {
     ),
     "no radius": (
         WIRE.replace('radius = "0.6 mm"\n', "") + TUBE + FEED,
-        "Input wire.radius is missing; expected a length such as '5 mm'.",
+        "Input wire.radius is missing; give it, or wire.diameter.",
+    ),
+    "radius and diameter": (
+        WIRE + 'diameter = "1.2 mm"\n' + TUBE + FEED,
+        "Input wire.radius cannot stand next to wire.diameter; remove one of them.",
+    ),
+    "shear modulus and Poisson ratio": (
+        WIRE + "poisson_ratio = 0.5\n" + TUBE + FEED,
+        "Input wire.shear_modulus cannot stand next to wire.poisson_ratio; remove one of them.",
+    ),
+    "a radius in French": (
+        WIRE.replace("0.6 mm", "3 Fr") + TUBE + FEED,
+        "Input wire.radius needs a unit of length such as '5 mm'; received '3 Fr', which is a "
+        "diameter.",
+    ),
+    "a diameter wider than the lumen": (
+        WIRE.replace('radius = "0.6 mm"', 'diameter = "21 Fr"') + TUBE + FEED,
+        "Input wire.diameter must be smaller than the lumen's smallest diameter, 6 mm; received "
+        "7 mm.",
+    ),
+    "bore by its diameter": (
+        WIRE.replace('radius = "0.6 mm"', 'diameter = "3 Fr"\ninner_diameter = "0.04 in"')
+        + TUBE
+        + FEED,
+        "Input wire.inner_diameter must be smaller than wire.diameter, 1 mm; received 1.016 mm.",
+    ),
+    "remanence without a length": (
+        WIRE + 'remanence = "1.2 T"\n' + TUBE + FEED,
+        "Input wire.magnetized_tip must be positive for a wire with wire.remanence; received 0 mm.",
+    ),
+    "a section that says things twice": (
+        "[wire]\nnodes = 100\n" + SECTIONS + 'remanence = "1 T"\n' + TUBE + FEED,
+        "Input wire.sections[1].magnetization cannot stand next to wire.sections[1].remanence; "
+        "remove one of them.",
     ),
     "uniform keys and sections": (
         '[wire]\nnodes = 100\nradius = "0.6 mm"\n' + SECTIONS + TUBE + FEED,
@@ -785,6 +818,21 @@ def test_all_faults_at_once() -> None:
         "Input wire.youngs_modulus must be positive; received -1 MPa.",
         "Override 'nonsense' must read key=value, as in 'wire.radius=0.5 mm'.",
     ]
+
+
+def test_all_faults_of_a_makes_words_at_once() -> None:
+    """What is said twice and what is missing, next to a value that is out of range."""
+    text = WIRE.replace('density = "2000 kg/m^3"', 'poisson_ratio = 0.7\ndiameter = "3 Fr"')
+    with pytest.raises(ScenarioError) as caught:
+        parse(text + 'stretching_stiffness = "3 N"\n' + TUBE + FEED)
+    assert set(caught.value.faults) == {
+        "Input wire.poisson_ratio must be from 0 to 0.5; received 0.7.",
+        "Input wire.radius cannot stand next to wire.diameter; remove one of them.",
+        "Input wire.shear_modulus cannot stand next to wire.poisson_ratio; remove one of them.",
+        "Input wire.stretching_stiffness cannot stand next to wire.youngs_modulus; remove one of "
+        "them.",
+        "Input wire.density is missing; give it, or wire.mass_per_length.",
+    }
 
 
 def test_faults_of_everything_missing() -> None:

@@ -285,10 +285,78 @@ def test_schema_describes_the_library() -> None:
     assert schema["type"] == "object"
     assert set(schema["required"]) == {"wire", "lumen", "feed"}
     wire = schema["$defs"]["UniformWire"]["properties"]
-    assert wire["radius"]["type"] == "string"
-    assert wire["radius"]["examples"] == ["5 mm"]
-    assert wire["inner_radius"]["default"] == "0 mm"
+    assert wire["radius"]["anyOf"][0]["type"] == "string"
+    assert wire["radius"]["anyOf"][0]["examples"] == ["5 mm"]
+    assert wire["magnetized_tip"]["default"] == "0 mm"
     assert wire["nodes"]["minimum"] == 4
+
+
+CLINICAL = """
+[wire]
+nodes = 121
+[[wire.sections]]
+length = "80 mm"
+diameter = "0.014 in"
+taper_to = "0.1 mm"
+youngs_modulus = "60 GPa"
+poisson_ratio = 0.33
+density = "6.45 g/cm^3"
+[[wire.sections]]
+length = "30 mm"
+diameter = "1.5 Fr"
+bending_stiffness = "0.2 N mm^2"
+twisting_stiffness = "0.15 N mm^2"
+stretching_stiffness = "20 N"
+mass_per_length = "0.8 g/m"
+rest_curvature = ["60 1/m", "0 1/m"]
+rest_twist = "1 deg/mm"
+[[wire.sections]]
+length = "10 mm"
+diameter = "1.5 Fr"
+inner_diameter = "0.2 mm"
+youngs_modulus = "3 MPa"
+poisson_ratio = 0.5
+density = "7500 kg/m^3"
+remanence = "1.2 T"
+[lumen]
+shape = "straight"
+length = "120 mm"
+radius = "2 mm"
+[feed]
+speed = "10 mm/s"
+distance = "5 mm"
+[environment]
+tip_load = ["0 mN", "0.1 mN", "0 mN"]
+"""
+
+
+def test_a_wire_in_the_words_of_a_maker_of_devices() -> None:
+    scenario = parse(CLINICAL)
+    assert parse(scenario.to_toml()) == scenario
+    system = scenario.build().simulation.system
+    shaft, hook, magnet = system.wire.sections
+    assert shaft.radius == 0.1778e-3
+    assert shaft.end_radius == 0.05e-3
+    assert shaft.shear_modulus == pytest.approx(60e9 / 2.66)
+    assert hook.radius == 0.25e-3
+    assert (hook.bending_stiffness, hook.twisting_stiffness) == (0.2e-6, 0.15e-6)
+    assert hook.stretching_stiffness == 20.0
+    assert hook.density * hook.area == pytest.approx(0.8e-3)
+    assert hook.rest_twist == pytest.approx(math.radians(1000.0))
+    assert magnet.inner_radius == 0.1e-3
+    assert magnet.magnetization[2] == pytest.approx(954.93e3, rel=1e-5)
+    assert system.tip_load == (0.0, 1e-4, 0.0)
+
+
+def test_a_wire_of_one_make_is_the_same_in_all_words() -> None:
+    plain = load("half-circle").wire
+    text = load("half-circle").to_toml()
+    text = text.replace('radius = "0.6 mm"\ninner_radius = "0 mm"', 'diameter = "3.6 Fr"')
+    text = text.replace('shear_modulus = "1 MPa"', "poisson_ratio = 0.5")
+    other = parse(text).wire
+    assert other.build() == plain.build()
+    assert other.radius is None
+    assert other.shear_modulus is None
 
 
 def test_scenario_does_not_change() -> None:

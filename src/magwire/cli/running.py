@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from magwire.results import Result
     from magwire.scenario import Scenario
     from magwire.scenario.job import Job
+    from magwire.wire import Wire
 
 
 def run(
@@ -112,10 +113,10 @@ def carry_out(
         results = [simulate(job, folder / RESULT)]
         if compare and results[0] is not None and results[0].status != "interrupted":
             results.append(simulate(described.unsteered().build(), folder / PASSIVE))
-        return _report(described, folder, results)
+        return _report(described, job.simulation.system.wire, folder, results)
 
 
-def _report(described: Scenario, folder: Path, results: list[Result | None]) -> int:
+def _report(described: Scenario, wire: Wire, folder: Path, results: list[Result | None]) -> int:
     """Say how the runs ended and draw them; the exit status."""
     result, *others = results
     if result is None:
@@ -127,8 +128,11 @@ def _report(described: Scenario, folder: Path, results: list[Result | None]) -> 
 
     for line in summary.lines(result, steered=steered, passive=passive):
         say(line)
+    for line in summary.wire_lines(wire):
+        say(line)
     if passive is not None:
-        say(f"{'gained':{summary.COLUMN}}{summary.gain(result, passive)}")
+        for line in summary.gains(result, passive):
+            say(line)
     if steered and result.time.size:
         from magwire.scenario import schedule_of, write_schedule
 

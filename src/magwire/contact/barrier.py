@@ -7,6 +7,8 @@ from typing import Literal
 
 from magwire.errors import one_of, positive
 
+Auto = Literal["auto"]
+
 
 @dataclass(frozen=True)
 class Barrier:
@@ -17,19 +19,22 @@ class Barrier:
     Parameters
     ----------
     stiffness
-        K [Pa].
+        K [Pa]; ``"auto"`` fits it to the wire's bending stiffness and the lumen's bends.
     activation_gap
-        Clearance dhat below which the wall is felt [m].
+        Clearance dhat below which the wall is felt [m]; ``"auto"`` makes it a small part of the
+        free room in the lumen, so that what remains of it under load is no more than that part.
     wall
         What the wall keeps off (P-12): the wire's ``"surface"``, or, as in the paper, its
         ``"centreline"``.
     """
 
-    stiffness: float = 1e3
-    activation_gap: float = 0.1e-3
+    stiffness: float | Auto = "auto"
+    activation_gap: float | Auto = "auto"
     wall: Literal["surface", "centreline"] = "surface"
 
     def __post_init__(self) -> None:
-        positive("Barrier", "stiffness", self.stiffness, "Pa")
-        positive("Barrier", "activation_gap", self.activation_gap, "m")
+        if self.stiffness != "auto":
+            positive("Barrier", "stiffness", self.stiffness, "Pa")
+        if self.activation_gap != "auto":
+            positive("Barrier", "activation_gap", self.activation_gap, "m")
         one_of("Barrier", "wall", self.wall, ("surface", "centreline"))

@@ -9,10 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.engine.feed import Feed
+from magwire.engine.reaction import reaction
 from magwire.engine.record import Record, Totals
 from magwire.engine.sampling import SAMPLINGS, mismatch, sample
 from magwire.engine.status import Status
 from magwire.engine.system import System
+from magwire.engine.tip import tip_direction
 from magwire.errors import InputError, positive
 from magwire.field import FieldSource
 from magwire.kernels.arrays import Field, Mouth
@@ -115,9 +117,8 @@ class March:
 
     def tip(self) -> tuple[Array, Array]:
         """Position [m] and unit direction of the tip, shape (3,)."""
-        edge = self._state.q[-1, :3] - self._state.q[-2, :3]
         position: Array = self._state.q[-1, :3] * self.system.wire.length
-        return position, edge / np.linalg.norm(edge)
+        return position, tip_direction(self.system, self._state, self._held)
 
     def feeds(self, last: int) -> Array:
         """Feed at the ends of the steps from now on up to ``last``, shape (last - step,) [m]."""
@@ -243,12 +244,11 @@ class March:
         place_held(system.rod, system.guide, state, 0, mouth.held, feed, twist)
         nodes = len(state.q)
         forces, clearance = np.zeros((nodes, 3)), np.zeros(nodes)
-        between, stable = observe(self._model(), state, mouth, self._work, forces, clearance)
+        middle, along, stable = observe(self._model(), state, mouth, self._work, forces, clearance)
+        push, torque = reaction(system, mouth, self._work.gradient)
         clearance[: mouth.held + 1] = np.nan
-        free = clearance[mouth.held + 1 :]
         if mouth.held < nodes - 1:
-            least = min(float(free.min()), between) * scales.length
-            self._clearance = min(self._clearance, least)
+            self._clearance = min(self._clearance, along * scales.length)
         counts = self._tally.counts
         new_steps = counts[0] - self._seen[0]
         iterations = (counts[1] - self._seen[1]) / new_steps if new_steps else 0.0
@@ -261,9 +261,12 @@ class March:
             flux_density=self.source.at(tip)[0][0] + self._plan.steer,
             contact_force=forces[1:] * scales.force,
             clearance=clearance[1:] * scales.length,
-            clearance_midpoint=between * scales.length if np.isfinite(between) else float("nan"),
+            clearance_midpoint=middle * scales.length if np.isfinite(middle) else float("nan"),
+            clearance_along=along * scales.length if np.isfinite(along) else float("nan"),
             tip_force=float(np.linalg.norm(forces[-1])) * scales.force,
             tip_offset=float(system.path.offset(tip)[0]),
+            push_force=push,
+            guide_torque=torque,
             newton_iterations=float(iterations),
             stable=bool(stable),
             totals=self.totals,

@@ -10,9 +10,20 @@ from numpy.typing import NDArray
 from magwire.engine.system import System
 from magwire.kernels.arrays import Field, Motion, Mouth, Rod, State, Work
 from magwire.kernels.assembly import FIRST, assemble
-from magwire.kernels.band import factor
+from magwire.kernels.band import WIDTH, factor
 
 Array = NDArray[np.float64]
+
+
+def free_rows(nodes: int, held: int, *, far_held: bool) -> int:
+    """The row past the last free one; what holds the far end holds the last edge (P-1)."""
+    return 4 * (nodes - held - 1) if far_held else 4 * (nodes - held + 1) - 1
+
+
+def cut_off(band: Array, last: int) -> None:
+    """Take the rows from ``last`` on out of a band's columns, as the factorisation expects it."""
+    for k in range(1, WIDTH):
+        band[last - k : last, k] = 0.0
 
 
 @dataclass(frozen=True)
@@ -20,7 +31,8 @@ class Point:
     """An equilibrium as the kernels hold it.
 
     ``unsampled`` is what second derivatives of the field add to the stiffness, by the middle of
-    each edge, shape (edges, 3, 3), scaled; nothing in an affine field.
+    each edge, shape (edges, 3, 3), scaled; nothing in an affine field. ``far_held``: whether the
+    last edge is held, too.
     """
 
     system: System
@@ -28,6 +40,12 @@ class Point:
     state: State
     mouth: Mouth
     unsampled: Array | None = None
+    far_held: bool = False
+
+    @property
+    def last(self) -> int:
+        """The row past the last free one."""
+        return free_rows(len(self.state.q), self.mouth.held, far_held=self.far_held)
 
     def gradient(
         self,
@@ -64,6 +82,8 @@ class Point:
         assemble(model, self.state, self.mouth, still, work.gradient, work.band)
         if self.unsampled is not None:
             self._add(self.unsampled, work.band)
+        if self.far_held:
+            cut_off(work.band, self.last)
         return work.band
 
     def _add(self, unsampled: Array, band: Array) -> None:
@@ -80,5 +100,4 @@ class Point:
     @property
     def stable(self) -> bool:
         """Whether the tangent stiffness is positive definite."""
-        free = 4 * (len(self.state.q) - self.mouth.held + 1) - 1
-        return bool(factor(self.stiffness(self.system.new_work()), FIRST, free) < 0)
+        return bool(factor(self.stiffness(self.system.new_work()), FIRST, self.last) < 0)

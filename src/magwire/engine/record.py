@@ -43,6 +43,11 @@ class RunInfo:
         Scales that make the paper's numbers.
     centreline, lumen_radius, lumen_branch
         The lumen as drawn: points, shape (q, 3) [m]; radius, shape (q,) [m]; branch, shape (q,).
+    magnet
+        Where the distal magnet begins and ends on the wire [m]; NaN without one.
+    way
+        Points and radius of the way from the entrance to the target, densely along it, shape
+        (q, 4) [m]; no rows in open space.
     title, scenario
         Title, and the whole scenario as TOML ("" for a run that was set up in Python).
     motion
@@ -54,6 +59,8 @@ class RunInfo:
     centreline: Array
     lumen_radius: Array
     lumen_branch: NDArray[np.int64]
+    magnet: tuple[float, float]
+    way: Array
     title: str = ""
     scenario: str = ""
     motion: Motion = "dynamic"
@@ -70,7 +77,7 @@ class Totals:
     first_contact_feed
         Feed at which any node first felt the wall [m]; NaN if none did.
     smallest_clearance
-        Over all recorded states, nodes and midpoints [m].
+        Over all recorded states, anywhere along the wire [m].
     steps, newton_iterations, factorisations, retries
         Counts so far.
     wall_time
@@ -107,8 +114,12 @@ class Record:
         NaN for nodes on the guide.
     clearance_midpoint
         The smallest of the midpoints between nodes [m]; NaN if all are on the guide.
+    clearance_along
+        The smallest anywhere along the wire, nodes and edges [m]; NaN if all is on the guide.
     tip_force, tip_offset
         Size of the wall force on the tip node [N]; distance of the tip from the centreline [m].
+    push_force, guide_torque
+        Of the guide on the wire in front of it: along the guide [N], about it [N m].
     newton_iterations
         Per step, mean since the record before.
     stable
@@ -127,8 +138,11 @@ class Record:
     contact_force: Array
     clearance: Array
     clearance_midpoint: float
+    clearance_along: float
     tip_force: float
     tip_offset: float
+    push_force: float
+    guide_torque: float
     newton_iterations: float
     stable: bool
     totals: Totals = field(default_factory=Totals)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from magwire.engine.parameters import parameter_loads
 from magwire.engine.point import Point
+from magwire.engine.tip import tip_direction_moves
 from magwire.errors import one_of
 from magwire.kernels.arrays import Field, Mouth, Work
 from magwire.kernels.assembly import FIRST
@@ -43,10 +44,7 @@ def derivative(point: Point, output: Output, wrt: Input) -> Array:
     elif output == "tip":
         result = positions[:, -1].T
     else:
-        edge = (point.state.q[-1] - point.state.q[-2])[:3] * length
-        size = np.linalg.norm(edge)
-        across = np.eye(3) - np.outer(edge, edge) / size**2
-        result = across @ (positions[:, -1] - positions[:, -2]).T / size
+        result = tip_direction_moves(system, point.state, held, moved / unit)
     return result.reshape(*result.shape[:-1], *shape)
 
 
@@ -121,7 +119,7 @@ def _coupling(band: Array, lead: Array, point: Point) -> Array:
 def _solve(point: Point, loads: Array) -> Array:
     """Displacements -K^-1 load for every load, shape [inputs, nodes + 1, 4]."""
     nodes, held = len(point.state.q), point.mouth.held
-    last = 4 * (nodes - held + 1) - 1
+    last = point.last
     moved = np.zeros_like(loads)
     if held == nodes - 1:
         return moved

@@ -8,13 +8,16 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.engine.hold import Hold, carry
 from magwire.engine.point import Point
+from magwire.engine.reaction import reaction
 from magwire.engine.sampling import sample, unsampled_stiffness
 from magwire.engine.sensitivity import Input, Output, derivative
 from magwire.engine.status import Status
 from magwire.engine.system import System
+from magwire.engine.tip import tip_direction
 from magwire.engine.uneven import Settled, settle
-from magwire.errors import ConvergenceError, finite, within
+from magwire.errors import ConvergenceError, InputError, finite, within
 from magwire.field import FieldSource
 from magwire.kernels.arrays import Motion, Mouth, State, Work
 from magwire.kernels.guide import find_mouth, place_held
@@ -24,6 +27,7 @@ from magwire.kernels.newton import copy_state, newton
 from magwire.kernels.observe import observe
 
 Array = NDArray[np.float64]
+FEWEST = 4  # nodes past the guide of a wire whose last edge is held
 
 
 @dataclass(frozen=True)
@@ -38,6 +42,8 @@ class Equilibrium:
         Nodes, proximal first, shape (nodes, 3) [m].
     wall_force
         Force of the wall on each node, shape (nodes, 3) [N].
+    push_force, guide_torque
+        Of the guide on the wire in front of it: along the guide [N], about it [N m] (P-38).
     clearance
         Of each node to the wall, shape (nodes,) [m]; NaN on the guide.
     stable
@@ -53,6 +59,8 @@ class Equilibrium:
     twist: float
     positions: Array
     wall_force: Array
+    push_force: float
+    guide_torque: float
     clearance: Array
     stable: bool
     residual: float
@@ -67,10 +75,9 @@ class Equilibrium:
 
     @property
     def tip_direction(self) -> Array:
-        """Unit tangent of the last edge, shape (3,)."""
-        edge = self.positions[-1] - self.positions[-2]
-        result: Array = edge / np.linalg.norm(edge)
-        return result
+        """Unit tangent at the tip, shape (3,)."""
+        point = self.point
+        return tip_direction(point.system, point.state, point.mouth.held)
 
     @property
     def tip_force(self) -> float:
@@ -90,7 +97,8 @@ class Equilibrium:
             origin; ``"feed"`` [m]; ``"twist"`` [rad]; or a parameter of each section of the wire:
             ``"youngs_modulus"`` and ``"shear_modulus"``, shape (sections,) [Pa],
             ``"magnetization"``, shape (sections, 3) [A/m], ``"radius"``, shape (sections,) [m], in
-            which a bore stays as it is.
+            which a bore stays as it is, and so does a stiffness that was given. Each parameter
+            counts with all others as they are, also where a Poisson ratio was given.
 
         Returns
         -------
@@ -100,7 +108,7 @@ class Equilibrium:
         Raises
         ------
         InputError
-            If output or input is none of these.
+            If output or input is none of these, or a section has no such parameter.
 
         Notes
         -----
@@ -116,9 +124,13 @@ def find_equilibrium(
     *,
     start: Equilibrium | None = None,
     twist: float = 0.0,
+    hold: Hold | None = None,
 ) -> Equilibrium:
     """Static equilibrium at a fixed feed and field; see ``Simulation.equilibrium``."""
-    feed = within("Simulation", "feed", feed, "m", low=0.0, high=system.wire.length)
+    feed, length = finite("Simulation", "feed", feed, "m"), system.wire.length
+    if length < feed <= length * (1.0 + 1e-9):  # sections sum to the length but for rounding
+        feed = length
+    within("Simulation", "feed", feed, "m", low=0.0, high=length)
     twist = finite("Simulation", "twist", twist, "rad")
     part = feed / system.wire.length
     mouth = Mouth(*find_mouth(system.rod, system.guide, part))
@@ -130,29 +142,55 @@ def find_equilibrium(
     place_held(system.rod, system.guide, state, 0, held, part, twist)
     work = system.new_work()
     done = Settled(sample(system, source, state), "", 0, 0.0)
-    if held < system.wire.nodes:
+    if hold is not None:
+        _check_hold(source, start, feed, system.wire.nodes - held)
+        done = carry(system, done.field, state, mouth, hold)
+    elif held < system.wire.nodes:
         done = (_settle if source.affine else settle)(system, source, state, mouth, work)
     if done.reason:
         raise _failure(system, feed, done.reason, state)
     nodes = len(state.q)
     forces, clearance = np.zeros((nodes, 3)), np.full(nodes, np.nan)
     model = (system.rod, done.field, system.new_wall(), system.walls)
-    _, stable = observe(model, state, mouth, work, forces, clearance)
-    point = Point(system, done.field, state, mouth)
+    _, _, stable = observe(model, state, mouth, work, forces, clearance)
+    push, torque = reaction(system, mouth, work.gradient)
+    point = Point(system, done.field, state, mouth, far_held=hold is not None)
     if held < system.wire.nodes and not source.affine:
         point = replace(point, unsampled=unsampled_stiffness(system, source, state))
+    if point.far_held or point.unsampled is not None:
         stable = point.stable
     return Equilibrium(
         feed=feed,
         twist=twist,
         positions=state.q[1:, :3] * system.scales.length,
         wall_force=forces[1:] * system.scales.force,
+        push_force=push,
+        guide_torque=torque,
         clearance=clearance[1:] * system.scales.length,
         stable=bool(stable),
         residual=done.residual * system.scales.force,
         iterations=done.iterations,
         point=point,
     )
+
+
+def _check_hold(source: FieldSource, start: Equilibrium | None, feed: float, free: int) -> None:
+    """What is held at its far end is not fed, in a field that is linear in space."""
+    if not source.affine:
+        raise InputError(
+            "Input field of Simulation must be uniform or linear for a wire with a held end; "
+            f"received {source!r}."
+        )
+    if start is not None and abs(start.feed - feed) > 1e-9 * feed:
+        raise InputError(
+            "Input start of Simulation must be at the same feed for a wire with a held end, "
+            f"{feed:.10g} m; received {start.feed:.10g} m."
+        )
+    if free < FEWEST:
+        raise InputError(
+            f"Input feed of Simulation must let go of {FEWEST} nodes for a wire with a held end; "
+            f"received {feed:.10g} m, which lets go of {free}."
+        )
 
 
 def _settle(system: System, source: FieldSource, state: State, mouth: Mouth, work: Work) -> Settled:

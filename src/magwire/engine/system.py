@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -11,7 +12,8 @@ from numpy.typing import NDArray
 
 from magwire.contact import Barrier
 from magwire.engine.record import Scales
-from magwire.errors import array, nonnegative, one_of
+from magwire.engine.wall import Firmness, divide, fit
+from magwire.errors import InputError, array, nonnegative, one_of
 from magwire.kernels.arrays import Guide, Rod, State, Tube, Wall, Work
 from magwire.kernels.band import HALF_BANDWIDTH, WIDTH
 from magwire.kernels.centreline import LumenArrays
@@ -24,6 +26,7 @@ Release = Literal["sliding", "node"]
 
 TOLERANCE = 1e-6  # force residual of a time step, in EI/L^2
 LAST_STEP = 1e-7  # a Newton step of a time step that needs no further one, in wire lengths
+UNEVEN = 10.0  # ratio of bending stiffnesses from which on time steps, too, let edges turn
 SHARP_TOLERANCE = 1e-9  # force residual of an equilibrium, in EI/L^2
 ITERATIONS = 60  # of a time step
 MANY_ITERATIONS = 2000  # of an equilibrium, which may be far from its start
@@ -44,6 +47,8 @@ class System:
         Acceleration, shape (3,) [m/s^2].
     fluid_density
         Of what fills the lumen [kg/m^3]; its buoyancy acts against gravity.
+    tip_load
+        Dead force on the tip, fixed in space, shape (3,) [N].
     release
         ``"sliding"``: the bending element at the guide's mouth counts with the part that is past
         the entrance; ``"node"``: node by node, as in the paper (P-15).
@@ -56,13 +61,39 @@ class System:
     gravity: tuple[float, float, float] = (0.0, 0.0, 0.0)
     fluid_density: float = 0.0
     release: Release = "sliding"
+    tip_load: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
         nonnegative("Simulation", "damping", self.damping, "1/s")
         nonnegative("Simulation", "fluid_density", self.fluid_density, "kg/m^3")
         gravity = array("Simulation", "gravity", self.gravity, (3,), "m/s^2")
+        tip_load = array("Simulation", "tip_load", self.tip_load, (3,), "N")
         object.__setattr__(self, "gravity", tuple(gravity.tolist()))
+        object.__setattr__(self, "tip_load", tuple(tip_load.tolist()))
         one_of("Simulation", "release", self.release, ("sliding", "node"))
+        self._check_edges()
+
+    def _check_edges(self) -> None:
+        """Refuse edges that, as chords, are too long for a bend that the wire can reach.
+
+        The middle of an edge of length l lies kappa l^2/8 nearer to a bend's inside than its ends.
+        """
+        if not self.lumen.branches:
+            return
+        branch = self.path.branches[0]
+        curvature, arc = branch.curve.sharpest_bends()
+        room = branch.curve.at(arc)[:, 3] - self.keep_off
+        reached = (arc <= self.wire.length) & (room > 0.0)
+        dip = np.where(reached, curvature, 0.0) * self.wire.edge_length**2 / 8.0
+        worst = int(np.argmax(dip / np.where(reached, room, np.inf)))
+        if reached[worst] and dip[worst] > room[worst]:
+            longest = float(np.sqrt(8.0 * room[worst] / curvature[worst]))
+            raise InputError(
+                f"Input nodes of Wire must be at least {math.ceil(self.wire.length / longest) + 1} "
+                f"for the lumen's bend of radius {1.0 / curvature[worst]:.4g} m at arc length "
+                f"{arc[worst]:.4g} m, where the wire has {room[worst]:.4g} m of room: the edges "
+                f"cut through it otherwise; received {self.wire.nodes}."
+            )
 
     @cached_property
     def scales(self) -> Scales:
@@ -84,6 +115,7 @@ class System:
         energy = self.wire.bending_stiffness / length
         inertia = length**2 / energy
         pull = (mesh.mass - self.fluid_density * mesh.volume)[:, None] * np.array(self.gravity)
+        pull[-1] += self.tip_load
         cell = np.diff(np.concatenate(([0.0], mesh.cell_end)))
         radius = mesh.radius if self.contact.wall == "surface" else np.zeros_like(mesh.radius)
         return Rod(
@@ -133,7 +165,9 @@ class System:
 
     def step_limits(self) -> Limits:
         """When Newton's method stops in a time step."""
-        return self._limits(TOLERANCE, ITERATIONS)._replace(step=LAST_STEP)
+        stiffnesses = [section.bending_stiffness for section in self.wire.sections]
+        turn = 1.0 if max(stiffnesses) > UNEVEN * min(stiffnesses) else 0.0
+        return self._limits(TOLERANCE, ITERATIONS)._replace(step=LAST_STEP, turn=turn)
 
     def sharp_limits(self) -> Limits:
         """When Newton's method stops at an equilibrium."""
@@ -153,15 +187,29 @@ class System:
         floor = 4.0 * float(np.finfo(np.float64).eps) * far * stiffest
         return Limits(max(tolerance, floor), iterations, FIRST_SHIFT / inertia)
 
+    @cached_property
+    def firmness(self) -> Firmness:
+        """Stiffness and activation gap of the wall's barrier [Pa, m]."""
+        return fit(self.contact, self.wire, self.path)
+
+    @cached_property
+    def bulge(self) -> float:
+        """Largest curvature with which the wall bulges towards the wire's axis [1/m]."""
+        return self.lumen.bulge(self.keep_off) if self.lumen.branches else 0.0
+
     def new_wall(self, tube: Tube | None = None) -> Wall:
         """The barrier, with nothing known yet of the gap near any point; with a virtual tube."""
         length, stiffness = self.wire.length, self.wire.bending_stiffness
+        unit = stiffness / length**4  # of a barrier's stiffness
+        edge = float(self.mesh.edge_length.max())
+        between = divide(self.firmness, edge, self.bulge, length, self.wire.nodes)
         none = Tube(0.0, 0.0, 0.0, self.walls, np.full((1, 4), -np.inf), np.zeros((1, 10)))
         return Wall(
-            stiffness=self.contact.stiffness * length**4 / stiffness,
-            gap=self.contact.activation_gap / length,
+            stiffness=self.firmness.stiffness / unit,
+            gap=self.firmness.activation_gap / length,
             known=np.full((self.wire.nodes + 1, 4), -np.inf),
             jet=np.zeros((self.wire.nodes + 1, 10)),
+            between=between._replace(stiffness=between.stiffness / unit),
             tube=none if tube is None else tube,
         )
 
@@ -173,7 +221,7 @@ class System:
         """
         length = self.wire.length
         return Tube(
-            stiffness=self.contact.stiffness * length**4 / self.wire.bending_stiffness,
+            stiffness=self.firmness.stiffness * length**4 / self.wire.bending_stiffness,
             gap=radius / length,
             offset=(path.narrowest - radius) / length,
             path=path.arrays(length),
@@ -201,6 +249,7 @@ class System:
             band=np.zeros((rows, WIDTH)),
             no_band=np.zeros((0, WIDTH)),
             step=np.zeros(rows),
+            way=np.zeros(rows),
             trial=self.new_state(),
             spare=self.new_state(),
             ahead=self.new_state(),

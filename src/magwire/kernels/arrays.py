@@ -75,6 +75,22 @@ class Tube(NamedTuple):
     jet: Array
 
 
+class Between(NamedTuple):
+    """Contact of the edges between their nodes; see ``wall.between``.
+
+    parts: into how many an edge is divided, 1 if the nodes are enough; stiffness, gap of the
+    points' barrier; margin that they keep from the wall; known [N, parts, 4], jet [N, parts, 10] as
+    in ``Wall``.
+    """
+
+    parts: int
+    stiffness: float
+    gap: float
+    margin: float
+    known: Array
+    jet: Array
+
+
 class Wall(NamedTuple):
     """Barrier stiffness and activation gap, and what is known of the gap near each node.
 
@@ -87,6 +103,7 @@ class Wall(NamedTuple):
     gap: float
     known: Array
     jet: Array
+    between: Between
     tube: Tube
 
 
@@ -120,13 +137,15 @@ class Motion(NamedTuple):
 class Work(NamedTuple):
     """Scratch arrays of the solver, allocated once; ``no_band`` has no rows.
 
-    before, pace [N+1, 4]: state and velocities at the start of a step that is cut.
+    way: change of the unknowns in a step whose edges turn, laid out as ``step``. before,
+    pace [N+1, 4]: state and velocities at the start of a step that is cut.
     """
 
     gradient: Array
     band: Array
     no_band: Array
     step: Array
+    way: Array
     trial: State
     spare: State
     ahead: State

@@ -9,7 +9,6 @@ from __future__ import annotations
 from math import inf
 
 from magwire.kernels._jit import kernel, part
-from magwire.kernels.barrier import barrier
 from magwire.kernels.bending import (
     bending_energy,
     bending_gradient,
@@ -21,17 +20,16 @@ from magwire.kernels.blocks import (
     mat_add,
     mat_scale,
     sym_add,
-    sym_outer,
     sym_scale,
     transpose,
 )
-from magwire.kernels.gap import gap_jet
-from magwire.kernels.hinge import hinge, material_frame, reference_twist, transport
+from magwire.kernels.hinge import hinge, material_frame
 from magwire.kernels.magnetics import force_block, moment_vector, torque_gradient, torque_hessian
 from magwire.kernels.scatter import add_block, add_column, add_diagonal, add_row, add_vector
 from magwire.kernels.stretching import stretching, stretching_hessian
 from magwire.kernels.twisting import twisting_gradient, twisting_hessian
-from magwire.kernels.vectors import add, combine, dot, norm, row, scale, sub
+from magwire.kernels.vectors import add, combine, dot, row, scale, sub
+from magwire.kernels.wall.contact import add_walls
 
 FIRST = 7
 LEAD = 8
@@ -43,25 +41,6 @@ def clear(array, first, last):
     for i in range(first, last):
         for k in range(array.shape[1]):
             array[i, k] = 0.0
-
-
-@kernel
-def update_frames(base, state, held):
-    """Tangents and frames of ``state``, transported from ``base`` along time (P-2)."""
-    edges = state.length.shape[0]
-    for j in range(held - 1, edges):
-        e = sub(row(state.q, j + 1), row(state.q, j))
-        length = norm(e)
-        t = scale(1.0 / length, e)
-        d1 = transport(row(base.director, j), row(base.tangent, j), t)
-        state.length[j] = length
-        for c in range(3):
-            state.tangent[j, c] = t[c]
-            state.director[j, c] = d1[c]
-        if j >= held:
-            state.twist[j] = reference_twist(
-                row(state.director, j - 1), row(state.tangent, j - 1), d1, t, base.twist[j]
-            )
 
 
 @part
@@ -214,84 +193,6 @@ def _add_magnet(field, state, j, m, gradient, band, r):
     return -dot(moment_vector(m, m1, m2, t), b)
 
 
-@kernel
-def query(lumen, x, known, jet):
-    """Ask for the gap at a node and remember it."""
-    g, _, _, safe, n, h = gap_jet(lumen, x[0], x[1], x[2])
-    known[0], known[1], known[2], known[3] = x[0], x[1], x[2], safe
-    jet[0], jet[1], jet[2], jet[3] = g, n[0], n[1], n[2]
-    jet[4], jet[5], jet[6], jet[7], jet[8], jet[9] = h[0], h[1], h[2], h[3], h[4], h[5]
-
-
-@kernel
-def clear_of_wall(x, known, reach):
-    """Whether a point is known to be farther than ``reach`` from the wall.
-
-    ``known`` remembers where the gap was last asked for and how far from there no wall is. It is
-    asked before ``push``, since a call hands over the whole lumen, and most nodes need none.
-    """
-    return norm(sub(x, (known[0], known[1], known[2]))) + reach <= known[3]
-
-
-@kernel
-def push(lumen, x, stiffness, gap, offset, known, jet):
-    """Barrier of a point near the wall: active or not, energy, gradient, Hessian (P-8, P-11)."""
-    if not (x[0] == known[0] and x[1] == known[1] and x[2] == known[2]):
-        query(lumen, x, known, jet)
-    d, n = jet[0] - offset, (jet[1], jet[2], jet[3])
-    h = (jet[4], jet[5], jet[6], jet[7], jet[8], jet[9])
-    if d >= gap:
-        return False, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    if not d > 0.0:
-        return True, inf, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    value, first, curved = barrier(d, gap)
-    block = sym_add(sym_outer(stiffness * curved, n), sym_scale(stiffness * first, h))
-    return True, stiffness * value, scale(stiffness * first, n), block
-
-
-@kernel
-def press(rod, lumen, wall, x, i):
-    """Barrier of the wall on node i at x; see ``push``."""
-    if clear_of_wall(x, wall.known[i], wall.gap + rod.offset[i]):
-        return False, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    stiffness = wall.stiffness * rod.cell[i]
-    return push(lumen, x, stiffness, wall.gap, rod.offset[i], wall.known[i], wall.jet[i])
-
-
-@kernel
-def press_tube(rod, tube, x):
-    """Barrier of the virtual tube on the tip at x; see ``push`` (P-19)."""
-    if clear_of_wall(x, tube.known[0], tube.gap + tube.offset):
-        return False, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    stiffness = tube.stiffness * rod.cell[rod.cell.shape[0] - 1]
-    return push(tube.path, x, stiffness, tube.gap, tube.offset, tube.known[0], tube.jet[0])
-
-
-@kernel
-def add_walls(rod, lumen, wall, state, mouth, gradient, band):
-    """Barrier energy of the nodes, and how many of them feel the wall (P-11, P-13)."""
-    energy = 0.0
-    touching = 0
-    held = mouth.held
-    tip = state.q.shape[0] - 1
-    for i in range(held + 1, tip + 1):
-        active, value, pushed, block = press(rod, lumen, wall, row(state.q, i), i)
-        if active:
-            touching += 1
-            energy += value
-            add_vector(gradient, i, 1.0, pushed)
-            if len(band) > 0:
-                add_diagonal(band, 4 * (i - held + 1), block)
-    if wall.tube.stiffness > 0.0 and held < tip:
-        active, value, pushed, block = press_tube(rod, wall.tube, row(state.q, tip))
-        if active:
-            energy += value
-            add_vector(gradient, tip, 1.0, pushed)
-            if len(band) > 0:
-                add_diagonal(band, 4 * (tip - held + 1), block)
-    return energy, touching
-
-
 @part
 def add_bodies(rod, state, motion, held, gradient, band):
     """Inertia of the time step and gravity (P-14)."""
@@ -318,7 +219,7 @@ def add_bodies(rod, state, motion, held, gradient, band):
 
 @kernel
 def assemble(model, state, mouth, motion, gradient, band):
-    """Energy, and how many nodes feel the wall; fills gradient and band.
+    """Energy, and the smallest clearance where the wall is felt; fills gradient and band.
 
     A band without rows says that no Hessian is wanted; so in every function of this file.
     """
@@ -328,10 +229,10 @@ def assemble(model, state, mouth, motion, gradient, band):
     clear(gradient, held - 1, nodes)
     if len(band) > 0:
         clear(band, 0, 4 * (nodes - held + 1))
-    contact, touching = add_walls(rod, lumen, wall, state, mouth, gradient, band)
+    contact, nearest = add_walls(rod, lumen, wall, state, held, gradient, band)
     if contact == inf:
-        return inf, touching
+        return inf, nearest
     energy = contact + add_hinges(rod, state, mouth, gradient, band)
     energy += add_edges(rod, field, state, mouth, gradient, band)
     energy += add_bodies(rod, state, motion, held, gradient, band)
-    return energy, touching
+    return energy, nearest

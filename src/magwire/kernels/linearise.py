@@ -7,12 +7,13 @@ from typing import NamedTuple
 
 from magwire.kernels._jit import kernel, part
 from magwire.kernels.arrays import Array, Field, Motion
-from magwire.kernels.assembly import FIRST, assemble, press_tube
+from magwire.kernels.assembly import FIRST, assemble
 from magwire.kernels.band import WIDTH, factor, solve
 from magwire.kernels.hinge import material_frame
 from magwire.kernels.magnetics import torque_gradient
 from magwire.kernels.newton import take_step
 from magwire.kernels.vectors import row
+from magwire.kernels.wall.push import press_tube
 
 SWEEPS = 60  # of inverse iteration, at most
 SHARE = 0.03  # of every direction in the first guess of a mode

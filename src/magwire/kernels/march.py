@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-from math import sqrt
+from math import inf, sqrt
 from typing import NamedTuple
 
 import numpy as np
 
 from magwire.kernels._jit import kernel, part
 from magwire.kernels.arrays import Array, Motion, Mouth
-from magwire.kernels.assembly import press, update_frames
-from magwire.kernels.collision import allowed_part
+from magwire.kernels.assembly import clear
+from magwire.kernels.frames import update_frames
 from magwire.kernels.guide import change_held, find_mouth, place_held
-from magwire.kernels.newton import CONVERGED, copy_state, newton
+from magwire.kernels.newton import CONVERGED, Limits, copy_state, newton
+from magwire.kernels.scatter import add_vector
 from magwire.kernels.vectors import dot, row
+from magwire.kernels.wall.between import press_edge
+from magwire.kernels.wall.collision import allowed_part
+from magwire.kernels.wall.push import press
+from magwire.kernels.wall.slide import slide
 
-RETRIES = 6  # a step may be cut in half this many times
+RETRIES = 10  # a step may be cut in half this many times
 
 
 class Plan(NamedTuple):
@@ -47,21 +52,30 @@ class Tally(NamedTuple):
 
 
 @part
-def tip_force(model, state):
+def tip_force(model, state, held, work):
     """Size of the wall force on the tip node (P-13)."""
     rod, _, wall, lumen = model
     tip = state.q.shape[0] - 1
+    clear(work.gradient, tip - 1, tip + 1)
     _, _, pushed, _ = press(rod, lumen, wall, row(state.q, tip), tip)
+    add_vector(work.gradient, tip, 1.0, pushed)
+    if held < tip:
+        press_edge(rod, lumen, wall, state, tip - 1, work.gradient, work.no_band, 0)
+    pushed = row(work.gradient, tip)
     return sqrt(dot(pushed, pushed))
 
 
 @part
-def predict(rod, lumen, wall, state, velocity, held, dt, work):
+def predict(rod, lumen, wall, state, velocity, held, dt, work, slides):
     """Move the free unknowns on at their velocities, as far as no point crosses the wall."""
     for i in range(held - 1, state.q.shape[0]):
         for c in range(4):
             free = i > held or (i == held and c == 3)
             work.step[4 * (i - held + 1) + c] = dt * velocity[i, c] if free else 0.0
+    if slides:
+        slide(rod, lumen, wall, state.q, work.step, held, 1.0, work.way)
+        for r in range(len(work.step)):
+            work.step[r] = work.way[r]
     share = allowed_part(rod, lumen, wall, state.q, work.step, held)
     for i in range(held, state.q.shape[0]):
         for c in range(4):
@@ -80,9 +94,10 @@ def follow_tangents(state, velocity, held, speed):
 
 
 @part
-def time_step(model, guide, state, velocity, work, limits, before, start, end, dt, plan):
+def time_step(model, guide, state, velocity, work, limits, slides, before, start, end, dt, plan):
     """One step into ``work.ahead`` (P-14, P-16); start, end: (feed, twist) of the guide.
 
+    slides: whether the wire's way follows the wall where it meets it.
     ``state`` changes only in what is held; returns how Newton ended and the last held node.
     """
     rod, _, wall, lumen = model
@@ -93,18 +108,21 @@ def time_step(model, guide, state, velocity, work, limits, before, start, end, d
     copy_state(state, work.ahead, held)
     if held == nodes - 1:
         place_held(rod, guide, work.ahead, 0, held, end[0], end[1])
-        return (CONVERGED, 0, 0, 0.0, 0), held
+        return (CONVERGED, 0, 0, 0.0, inf), held
     drag = 1.0 + plan.damping * dt
     if not plan.inertia:
         follow_tangents(state, velocity, held, drive[2])
     for i in range(held, nodes):
         for c in range(4):
             work.target[i, c] = state.q[i, c] + dt / drag * velocity[i, c]
-    predict(rod, lumen, wall, work.ahead, velocity, held, dt, work)
+    predict(rod, lumen, wall, work.ahead, velocity, held, dt, work, slides)
     place_held(rod, guide, work.ahead, held - 1, held, end[0], end[1])
     update_frames(state, work.ahead, held)
     motion = Motion(drag / (dt * dt) if plan.inertia else 0.0, work.target)
     mouth = Mouth(held, fraction)
+    limits = Limits(
+        limits.tolerance, limits.iterations, limits.shift, limits.step, limits.turn, slides
+    )
     return newton(model, work.ahead, mouth, motion, work, limits), held
 
 
@@ -163,8 +181,9 @@ def march(model, guide, state, velocity, work, limits, plan, first, last, held, 
         entry = held
         begun = cuts_by_feed(model[0], plan, k)
         halvings = begun
+        slides = False
         done = 0.0
-        touching = 0
+        touches = False
         while done < 1.0:
             share = 0.5**halvings
             start, end = moment(plan, k, done), moment(plan, k, done + share)
@@ -172,30 +191,33 @@ def march(model, guide, state, velocity, work, limits, plan, first, last, held, 
             if len(plan.flux) > 0:
                 steer_field(model[1], plan, k, done + share)
             outcome, held = time_step(
-                model, guide, state, velocity, work, limits, held, start, end, dt, plan
+                model, guide, state, velocity, work, limits, slides, held, start, end, dt, plan
             )
-            status, iterations, factorisations, _, felt = outcome
+            status, iterations, factorisations, _, nearest = outcome
             tally.counts[1] += iterations
             tally.counts[2] += factorisations
             if status != CONVERGED:
                 if done == 0.0:
                     copy_state(state, work.before, 1)
                     copy_rows(velocity, work.pace)
-                if halvings == begun + RETRIES:
+                if slides and halvings == begun + RETRIES:
                     copy_state(work.before, state, 1)
                     copy_rows(work.pace, velocity)
                     if len(plan.flux) > 0:
                         steer_field(model[1], plan, k, 0.0)
                     return k - first, entry, status
-                halvings += 1
+                halvings += 1 if slides else 0
+                slides = True
                 tally.counts[3] += 1
                 continue
             accept(state, velocity, work, held, dt)
-            touching = max(touching, felt)
+            touches = touches or nearest < inf
             done += share
+            if halvings > begun and done % (2.0 * share) == 0.0:
+                halvings -= 1
         tally.counts[0] += 1
-        if touching > 0:
-            size = tip_force(model, state)
+        if touches:
+            size = tip_force(model, state, held, work)
             tally.forces[0] = max(tally.forces[0], size)
             tally.forces[1] += size
             if tally.forces[2] < 0.0:

@@ -6,9 +6,12 @@ from math import inf
 from typing import NamedTuple
 
 from magwire.kernels._jit import kernel, part
-from magwire.kernels.assembly import FIRST, assemble, update_frames
+from magwire.kernels.assembly import FIRST, assemble
 from magwire.kernels.band import factor, solve
-from magwire.kernels.collision import allowed_part
+from magwire.kernels.frames import update_frames
+from magwire.kernels.vectors import combine, dot, norm, row, sub
+from magwire.kernels.wall.collision import allowed_part
+from magwire.kernels.wall.slide import slide
 
 CONVERGED = 0
 STALLED = 1
@@ -18,6 +21,8 @@ PENETRATING = 3
 ARMIJO = 1e-4
 HALVINGS = 40
 ROUND_OFF = 1e-13  # conditioning guard: energy differences below this part of it mean nothing
+FARTHEST = 0.05  # longest step along a wall, in L: it is followed by its tangent and curvature
+LAST = 0.01  # of the smallest clearance: a step that changes no wall force by much more than that
 SHIFT_GROWTH = 8.0
 SHIFTS = 24
 
@@ -26,13 +31,18 @@ class Limits(NamedTuple):
     """When Newton stops, and where regularisation begins.
 
     tolerance: force residual, in EI/L^2; iterations; shift: first regularisation [1/s^2]; step: a
-    full step shorter than this, in L, is the last one, since the next would be its square.
+    full step shorter than this, in L, and than a hundredth of every clearance in which the wall is
+    felt, is the last one: it changes no wall force by more than a few percent, and the next step
+    would be its square. turn: part of a step from which on its edges may turn, if the line search
+    comes down to it. slide: whether steps follow the wall.
     """
 
     tolerance: float
     iterations: int
     shift: float
     step: float = 0.0
+    turn: float = 1.0
+    slide: bool = False
 
 
 @kernel
@@ -105,6 +115,37 @@ def take_step(a, b, held, part, step):
     update_frames(a, b, held)
 
 
+@part
+def turn_step(a, b, held, part, step, way):
+    """Configuration b as of ``take_step``, but with edges that turn instead of growing longer.
+
+    A straight step lengthens an edge that turns by an angle by half of its square, which a stiff
+    edge resists: a stiff tip could turn by no more than the square root of its strain. Here every
+    edge takes the direction of the straight step and its length to first order. Fills ``way`` with
+    the change of the unknowns.
+    """
+    nodes = a.q.shape[0]
+    for i in range(held - 1, held + 1):
+        for c in range(4):
+            b.q[i, c] = a.q[i, c] + part * step[4 * (i - held + 1) + c]
+            way[4 * (i - held + 1) + c] = b.q[i, c] - a.q[i, c]
+    for i in range(held + 1, nodes):
+        r = 4 * (i - held + 1)
+        x, y = row(a.q, i - 1), row(a.q, i)
+        de = (step[r] - step[r - 4], step[r + 1] - step[r - 3], step[r + 2] - step[r - 2])
+        e = combine(1.0, sub(y, x), part, de)
+        length = a.length[i - 1] + part * dot(row(a.tangent, i - 1), de)
+        size = length / norm(e)
+        for c in range(3):
+            b.q[i, c] = b.q[i - 1, c] + size * e[c]
+        b.q[i, 3] = a.q[i, 3] + part * step[r + 3]
+        for c in range(4):
+            way[r + c] = b.q[i, c] - a.q[i, c]
+    for c in range(3):
+        b.director[held - 1, c] = a.director[held - 1, c]
+    update_frames(a, b, held)
+
+
 @kernel
 def copy_state(source, target, held):
     """Copy what lies from the guide's last edge to the tip."""
@@ -129,6 +170,52 @@ def longest(step, held, nodes):
     return value
 
 
+@part
+def search(model, a, b, mouth, motion, work, aim, turn):
+    """Halve the step from a until the energy of b falls enough.
+
+    aim: energy of a, its slope along the step, round-off. Returns the part of the step that was
+    taken, zero if there was none, and energy and smallest clearance of b.
+    """
+    rod, _, wall, lumen = model
+    held = mouth.held
+    energy, slope, slack = aim
+    share = allowed_part(rod, lumen, wall, a.q, work.step, held)
+    lower, nearest = inf, inf
+    for _ in range(HALVINGS):
+        take_step(a, b, held, share, work.step)
+        lower, nearest = assemble(model, b, mouth, motion, work.gradient, work.no_band)
+        if lower <= energy + ARMIJO * share * slope + slack:
+            return share, lower, nearest
+        if share <= turn:
+            turn_step(a, b, held, share, work.step, work.way)
+            if allowed_part(rod, lumen, wall, a.q, work.way, held) == 1.0:
+                lower, nearest = assemble(model, b, mouth, motion, work.gradient, work.no_band)
+                if lower <= energy + ARMIJO * share * slope + slack:
+                    return share, lower, nearest
+        share *= 0.5
+    return 0.0, lower, nearest
+
+
+@part
+def search_along_wall(model, a, b, mouth, motion, work, aim):
+    """The same with steps that follow the wall; see ``slide``."""
+    rod, _, wall, lumen = model
+    held = mouth.held
+    energy, slope, slack = aim
+    share = min(1.0, FARTHEST / longest(work.step, held, a.q.shape[0]))
+    lower, nearest = inf, inf
+    for _ in range(HALVINGS):
+        slide(rod, lumen, wall, a.q, work.step, held, share, work.way)
+        free = allowed_part(rod, lumen, wall, a.q, work.way, held)
+        take_step(a, b, held, free, work.way)
+        lower, nearest = assemble(model, b, mouth, motion, work.gradient, work.no_band)
+        if lower <= energy + ARMIJO * free * share * slope + slack:
+            return free * share, lower, nearest
+        share *= 0.5
+    return 0.0, lower, nearest
+
+
 @kernel
 def newton(model, state, mouth, motion, work, limits):
     """Minimise the energy from ``state``, which ends as the last iterate, converged or not.
@@ -139,16 +226,15 @@ def newton(model, state, mouth, motion, work, limits):
         How it ended, and counts.
     residual
         Largest force or moment left on a free unknown.
-    touching
-        How many nodes feel the wall.
+    nearest
+        Smallest clearance where the wall is felt; +inf if it is not.
     """
-    rod, _, wall, lumen = model
     held = mouth.held
     a, b = work.trial, work.spare
     copy_state(state, a, held)
     factorisations = 0
     iteration = 0
-    energy, touching = assemble(model, a, mouth, motion, work.gradient, work.band)
+    energy, nearest = assemble(model, a, mouth, motion, work.gradient, work.band)
     size = residual(work.gradient, held)
     status = CONVERGED if energy < inf else PENETRATING
     while status == CONVERGED and not size <= limits.tolerance:
@@ -167,21 +253,18 @@ def newton(model, state, mouth, motion, work, limits):
         for i in range(held, a.q.shape[0]):
             for c in range(4):
                 slope += work.gradient[i, c] * work.step[4 * (i - held + 1) + c]
-        share = allowed_part(rod, lumen, wall, a.q, work.step, held)
-        slack = ROUND_OFF * (1.0 + abs(energy))
-        status = STALLED
-        for _ in range(HALVINGS):
-            take_step(a, b, held, share, work.step)
-            lower, touching = assemble(model, b, mouth, motion, work.gradient, work.no_band)
-            if lower <= energy + ARMIJO * share * slope + slack:
-                status = CONVERGED
-                break
-            share *= 0.5
+        aim = energy, slope, ROUND_OFF * (1.0 + abs(energy))
+        if limits.slide:
+            share, lower, nearest = search_along_wall(model, a, b, mouth, motion, work, aim)
+        else:
+            share, lower, nearest = search(model, a, b, mouth, motion, work, aim, limits.turn)
+        status = CONVERGED if share > 0.0 else STALLED
         if status == CONVERGED:
             a, b = b, a
             energy = lower
             size = residual(work.gradient, held)
-            if share == 1.0 and size < inf and longest(work.step, held, a.q.shape[0]) < limits.step:
+            small = min(limits.step, LAST * nearest)
+            if share == 1.0 and size < inf and longest(work.step, held, a.q.shape[0]) < small:
                 break
     copy_state(a, state, held)
-    return status, iteration, factorisations, size, touching
+    return status, iteration, factorisations, size, nearest

@@ -25,7 +25,7 @@ from magwire.kernels.centreline import (
     LumenArrays,
     settle,
 )
-from magwire.kernels.seeds import DENSITY, deepest, ridges, spread
+from magwire.kernels.wall.seeds import DENSITY, deepest, ridges, spread
 from magwire.lumen.branch import Branch
 
 Array = NDArray[np.float64]

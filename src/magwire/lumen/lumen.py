@@ -16,6 +16,7 @@ from magwire.errors import InputError, array, nonnegative, positive, whole
 from magwire.kernels.centreline import LumenArrays
 from magwire.lumen import shapes
 from magwire.lumen.branch import Bend, Branch
+from magwire.lumen.bulge import largest_bulge
 from magwire.lumen.grid import scaled
 from magwire.lumen.search import Search
 from magwire.lumen.tree import join
@@ -402,6 +403,14 @@ class Lumen:
             Shape (n, 3) [m].
         """
         return self._search.offset(array("Lumen", "points", points, (None, 3), "m"))
+
+    def bulge(self, inset: float) -> float:
+        """Largest curvature with which the wall bulges inward, ``inset`` [m] off it [1/m].
+
+        A chord between two points comes nearer to the wall than they are by at most an eighth of
+        this times its length squared.
+        """
+        return largest_bulge(self._search.arrays, self.branches, inset)
 
     def arrays(self, length_scale: float = 1.0) -> LumenArrays:
         """The lumen as the kernels take it, in units of ``length_scale`` [m]."""

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.kernels.centreline import LumenArrays
-from magwire.kernels.gap import gap_many
+from magwire.kernels.wall.gap import gap_many
 from magwire.lumen.branch import Branch
 from magwire.lumen.grid import build
 

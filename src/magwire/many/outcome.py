@@ -33,7 +33,28 @@ QUANTITIES: dict[str, Quantity] = {
     "peak_field": Quantity(
         "T", "largest magnitude of the flux density at the tip", lambda r: r.peak_field
     ),
-    "contact_free": Quantity("1", "whether the tip never felt the wall", lambda r: r.contact_free),
+    "max_wall_force": Quantity(
+        "N", "largest force of the wall on the wire, summed over it", lambda r: r.max_wall_force
+    ),
+    "max_patch_force": Quantity(
+        "N", "largest force of the wall on a patch of the wire", lambda r: r.max_patch_force
+    ),
+    "force_patch": Quantity("m", "length of that patch", lambda r: r.force_patch),
+    "max_magnet_force": Quantity(
+        "N", "largest force of the wall on the distal magnet", lambda r: r.max_magnet_force
+    ),
+    "longest_contact": Quantity("m", "largest contact length", lambda r: r.longest_contact),
+    "max_push_force": Quantity("N", "largest push at the guide", lambda r: r.max_push_force),
+    "max_guide_torque": Quantity(
+        "N m", "largest size of the torque at the guide", lambda r: r.max_guide_torque
+    ),
+    "tip_contact_free": Quantity(
+        "1", "whether the tip never felt the wall", lambda r: r.tip_contact_free
+    ),
+    "wire_contact_free": Quantity(
+        "1", "whether no part of the wire ever felt the wall", lambda r: r.wire_contact_free
+    ),
+    "contact_free": Quantity("1", "another name of tip_contact_free", lambda r: r.contact_free),
     "first_contact": Quantity(
         "m",
         "fed length at which some node first felt the wall",

@@ -12,6 +12,7 @@ import numpy as np
 from magwire.errors import MagwireError
 from magwire.files import clear, write_whole
 from magwire.many.job import Job
+from magwire.many.outcome import QUANTITIES
 from magwire.many.runs import outcomes_of, progress
 from magwire.many.sweep import Sweep
 from magwire.many.table import PENDING, Table, blank, load
@@ -31,7 +32,8 @@ def begun(folder: Path, sweep: Sweep) -> bool:
         table = load(folder / TABLE)
     except MagwireError:
         return False
-    return table.attrs["sweep"] == sweep.text and bool((table["status"] == PENDING).any())
+    same = table.attrs["sweep"] == sweep.text and set(QUANTITIES) <= set(table)
+    return same and bool((table["status"] == PENDING).any())
 
 
 def carry_out(
@@ -89,14 +91,20 @@ def lines(table: xr.Dataset) -> list[str]:
     status = Counter(str(word) for word in table["status"].values)
     ended = ", ".join(f"{count} {word}" for word, count in status.most_common())
     whole = table["status"].values == "complete"  # one that stopped early had not met all of it
-    free = int(np.count_nonzero(table["contact_free"].values[whole] == 1.0))
+    tips, wires = (
+        int(np.count_nonzero(table[f"{part}_contact_free"].values[whole] == 1.0))
+        for part in ("tip", "wire")
+    )
     rows = {
         "runs": f"{table.sizes['run']}: {ended}",
         "varied": str(table.attrs["parameters"]),
-        "tip clear throughout": f"in {free} of {int(whole.sum())} complete runs",
+        "tip clear throughout": f"in {tips} of {int(whole.sum())} complete runs",
+        "wire clear, too": f"in {wires} of {int(whole.sum())} complete runs",
     }
     for name, label, dimension in (
         ("max_tip_force", "peak tip force", "force"),
+        ("max_wall_force", "peak wire force", "force"),
+        ("max_push_force", "peak push at guide", "force"),
         ("peak_field", "peak field", "flux_density"),
     ):
         values = table[name].values[np.isfinite(table[name].values)]

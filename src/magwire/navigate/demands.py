@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from magwire.errors import InputError, positive, within
+from magwire.navigate.navigator import NavigationError
+
+ROUND_OFF = 1e-12  # part of a limit that is kept free for the rounding of what comes after
 
 
 @dataclass(frozen=True)
@@ -20,7 +23,7 @@ class Demands:
     field_tolerance
         Part by which the field may be off without harm.
     max_field
-        Largest flux density [T].
+        Largest flux density [T]; no planned field is larger, not by a rounding error.
     max_field_rate
         Largest change of the flux density per length fed [T/m].
     """
@@ -46,3 +49,18 @@ class Demands:
     def weakening(self) -> float:
         """The weakest field that there may be, over the planned one."""
         return 1.0 - self.field_tolerance
+
+    @property
+    def largest_weakest(self) -> float:
+        """What the weakest field may be at most, for the planned one to keep to its limit [T]."""
+        return self.max_field * self.weakening * (1.0 - ROUND_OFF)
+
+    def exceeded(self, where: str, needed: float) -> NavigationError:
+        """The refusal of a field [T] above the limit, with digits enough to tell the two apart."""
+        digits = 3
+        while f"{1e3 * needed:.{digits}g}" == f"{1e3 * self.max_field:.{digits}g}" and digits < 17:
+            digits += 1
+        return NavigationError(
+            f"{where} the tip needs {1e3 * needed:.{digits}g} mT; the limit is "
+            f"{1e3 * self.max_field:.{digits}g} mT."
+        )

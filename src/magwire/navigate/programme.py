@@ -155,7 +155,7 @@ def constraints(programme: Programme, view: View, margin: float) -> tuple[Array,
     rows[STARTS[1] : STARTS[2], :3] = -fields[:, None] * by_eigen
     upper[STARTS[1] : STARTS[2]] = value + (fields - 1.0) * (by_eigen @ b) - margin / weight
     rows[STARTS[2], :3] = b / max(flux, 1e-9)
-    upper[STARTS[2]] = min(programme.demands.max_field * weak / unit, FREE) - flux
+    upper[STARTS[2]] = min(programme.demands.largest_weakest / unit, FREE) - flux
     return rows, upper
 
 

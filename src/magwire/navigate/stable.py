@@ -121,7 +121,7 @@ class StableNavigator:
             demands,
             REFERENCE * system.scales.flux_density * longer**2,
             system.keep_off,
-            system.contact.activation_gap,
+            system.firmness.activation_gap,
         )
         unlimited = replace(programme, demands=replace(demands, max_field=float("inf")))
         self._pilot = Pilot(self.model, programme)
@@ -177,8 +177,7 @@ class StableNavigator:
 
     def _reason(self, failure: NavigationError, last: Knot, feed: float) -> NavigationError:
         """Why there is no field: the limit, if there would be one without."""
-        limit = self.demands.max_field
-        if not np.isfinite(limit):
+        if not np.isfinite(self.demands.max_field):
             return failure
         self._scout.forget()
         try:
@@ -186,12 +185,9 @@ class StableNavigator:
         except NavigationError:
             return failure
         needed = norm(knot.flux) / self.demands.weakening
-        if needed <= limit:
+        if needed <= self.demands.max_field:
             return failure
-        return NavigationError(
-            f"At {feed * 1e3:.4g} mm of feed the tip needs {needed * 1e3:.3g} mT; the limit is "
-            f"{limit * 1e3:.3g} mT."
-        )
+        return self.demands.exceeded(f"At {feed * 1e3:.4g} mm of feed", needed)
 
     def _grows(self) -> bool:
         """Whether the field that holds the wire grows so fast that the wall had better do it."""

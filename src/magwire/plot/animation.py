@@ -1,17 +1,18 @@
-"""A moving picture of a run: the wire in its lumen, and the tip force growing beside it."""
+"""A moving picture of a run: the wire in its lumen; forces on tip and wire grow beside it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from magwire.errors import InputError, MagwireError, positive, whole
@@ -28,6 +29,21 @@ Frame = NDArray[np.uint8]
 ARROW = 0.2
 """Length of the arrow of the largest field, over the largest extent of the lumen."""
 WIRE, TIP = "#4c6272", "#111111"
+
+
+class Panel(NamedTuple):
+    """A force that grows beside the wire: variable, title, what to say if it is none, its place."""
+
+    variable: str
+    title: str
+    none: str
+    bottom: float
+
+
+PANELS = (
+    Panel("tip_force", r"force on the tip  $\mathcal{F}$", "the tip never touches", 0.57),
+    Panel("wall_force", "force on the wire, in all", "nothing touches the wall", 0.13),
+)
 
 
 class MovieError(MagwireError):
@@ -54,7 +70,7 @@ def animate(
         File to write, GIF or MP4 by its suffix; an existing one is overwritten. MP4 needs
         ``imageio-ffmpeg``.
     passive
-        A run that nobody steered, whose tip force is shown for comparison.
+        A run that nobody steered, whose forces are shown for comparison.
     width
         Of the picture [pixels]; its height is 9/16 of it.
     seconds
@@ -103,7 +119,6 @@ class Scene:
         self, data: xr.Dataset, size: tuple[int, int], passive: xr.Dataset | None = None
     ) -> None:
         self.push = data["normalized_push"].values
-        self.force = data["normalized_tip_force"].values
         self.nodes = 1e3 * data["position"].values
         self.field, self.time = data["field"].values, data["time"].values
         self.feed = 1e3 * data["feed"].values
@@ -113,7 +128,7 @@ class Scene:
         self.figure: Any = Figure(figsize=(size[0] / dpi, size[1] / dpi), dpi=dpi)
         self.canvas: Any = FigureCanvasAgg(self.figure)
         self._lumen(data)
-        self._curve(data, passive)
+        self.grown = [self._curve(panel, data, passive) for panel in PANELS]
         self.magnet = magnetised(data)
         self.lines = [
             self.ax.plot(*self._flat(self.nodes[0]), color=colour, linewidth=width, zorder=5)[0]
@@ -124,7 +139,8 @@ class Scene:
         )
         self.arrow.set_figure(self.figure)
         self.arrow.set_transform(self.ax.transData)
-        self.moving = [*self.lines, self.grown, self.dot, self.words]
+        growing = [artist for _, *artists in self.grown for artist in artists]
+        self.moving = [*self.lines, *growing, self.words]
         self.still = self._background()
 
     def _background(self) -> Any:
@@ -145,8 +161,9 @@ class Scene:
             else:
                 line.set_data(*seen[:, list(self.plane)].T)
         self._point(record)
-        self.grown.set_data(self.push[: record + 1], self.force[: record + 1])
-        self.dot.set_data([self.push[record]], [self.force[record]])
+        for force, line, dot in self.grown:
+            line.set_data(self.push[: record + 1], force[: record + 1])
+            dot.set_data([self.push[record]], [force[record]])
         strength = 1e3 * float(np.linalg.norm(self.field[record]))
         self.words.set_text(
             f"t = {self.time[record]:5.1f} s     fed {self.feed[record]:5.1f} mm     "
@@ -177,7 +194,7 @@ class Scene:
         return nodes.T if self.plane is None else nodes[:, list(self.plane)].T
 
     def _lumen(self, data: xr.Dataset) -> None:
-        place = (0.07, 0.11, 0.48, 0.78)
+        place = (0.08, 0.11, 0.47, 0.78)
         if self.plane is None:
             self.ax: Any = self.figure.add_axes(
                 (0.0, 0.03, 0.58, 0.9), projection="3d", computed_zorder=False
@@ -191,28 +208,33 @@ class Scene:
         self.figure.text(0.02, 0.955, title, fontsize=9.5, fontweight="bold", va="center")
         self.words = self.figure.text(0.98, 0.955, "", ha="right", va="center")
 
-    def _curve(self, data: xr.Dataset, passive: xr.Dataset | None) -> None:
-        ax = self.figure.add_axes((0.66, 0.17, 0.26, 0.66))
-        top = float(np.nanmax(self.force, initial=0.0))
+    def _curve(
+        self, panel: Panel, data: xr.Dataset, passive: xr.Dataset | None
+    ) -> tuple[Array, Any, Any]:
+        """Axes for a force; its values over EI/L^2, and the line and the dot that grow."""
+        scale = float(data.attrs["force_scale"])
+        force = data[panel.variable].values / scale
+        runs = [force] if passive is None else [force, passive[panel.variable].values / scale]
+        top = max(float(np.nanmax(values, initial=0.0)) for values in runs)
+        ax = self.figure.add_axes((0.66, panel.bottom, 0.26, 0.29))
         if passive is not None:
-            push, force = (passive[f"normalized_{name}"].values for name in ("push", "tip_force"))
-            ax.plot(push, force, color=style.PASSIVE, label="not steered")
-            top = max(top, float(np.nanmax(force, initial=0.0)))
+            push = passive["normalized_push"].values
+            ax.plot(push, runs[1], color=style.PASSIVE, label="not steered")
         ax.set_xlim(0.0, float(self.push.max()) or 1.0)
-        ax.set_ylim(0.0, 1.25 * top or 1.0)
-        ax.set_xlabel(curves.PUSH_LABEL)
-        ax.set_title(r"tip force  $\mathcal{F}$", loc="left")
-        curves.second_axis(ax, 1e3 * float(data.attrs["force_scale"]), "[mN]")
-        ax.plot(self.push, self.force, color=style.GRID, linewidth=1.0, zorder=1)
-        (self.grown,) = ax.plot([], [], color=style.FORCE, clip_on=False, label="this run")
-        (self.dot,) = ax.plot([], [], "o", color=style.FORCE, markersize=4, clip_on=False)
+        ax.set_ylim(0.0, (1.25 if passive is None else 1.5) * top or 1.0)
+        ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 5, 10]))
+        ax.set_title(panel.title, loc="left")
+        curves.second_axis(ax, 1e3 * scale, "[mN]")
+        ax.plot(self.push, force, color=style.GRID, linewidth=1.0, zorder=1)
+        (line,) = ax.plot([], [], color=style.FORCE, clip_on=False, label="this run")
+        (dot,) = ax.plot([], [], "o", color=style.FORCE, markersize=4, clip_on=False)
         if passive is not None:
             ax.legend(loc="upper left", ncols=2, handlelength=1.0, columnspacing=1.0)
         elif top == 0.0:
-            ax.text(
-                0.5, 0.4, "the tip never touches\nthe wall", transform=ax.transAxes,
-                ha="center", color=style.MUTED, fontstyle="italic",
-            )  # fmt: skip
+            curves.note(ax, panel.none)
+        if panel is PANELS[-1]:
+            ax.set_xlabel(curves.PUSH_LABEL)
+        return force, line, dot
 
 
 def magnetised(data: xr.Dataset) -> NDArray[np.bool_]:

@@ -42,7 +42,7 @@ def draw_force(ax: Axes, data: xr.Dataset, passive: xr.Dataset | None = None) ->
     if passive is not None:
         ax.legend(loc="upper left", ncols=2, borderaxespad=0.1, columnspacing=1.2)
     if top == 0.0:
-        _note(ax, "the tip never touches the wall")
+        note(ax, "the tip never touches the wall")
 
 
 def draw_field(ax: Axes, data: xr.Dataset) -> None:
@@ -61,7 +61,7 @@ def draw_field(ax: Axes, data: xr.Dataset) -> None:
         ax.legend(loc="upper left", ncols=3, borderaxespad=0.1, columnspacing=1.2)
     else:
         ax.set_ylim(-1.0, 1.0)
-        _note(ax, "no field")
+        note(ax, "no field")
     ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 5, 10]))
     scale = float(data.attrs["field_scale"])
     if np.isfinite(scale):
@@ -81,7 +81,7 @@ def draw_clearance(ax: Axes, data: xr.Dataset) -> None:
     ax.set_ylabel("clearance [mm]")
     if not np.isfinite(smallest).any():
         ax.set_ylim(0.0, 1.0)
-        _note(ax, "no wall")
+        note(ax, "no wall")
         return
     for values, colour, name, width in (  # the tip on top: where it touches, they are the same
         (smallest, style.CLEARANCE, "smallest of the wire", 2.4),
@@ -131,7 +131,8 @@ def second_axis(ax: Axes, factor: float, label: str, *, inverse: bool = False) -
     right.set_ylabel(label)
 
 
-def _note(ax: Axes, text: str) -> None:
+def note(ax: Axes, text: str) -> None:
+    """A word in the middle of a panel that has nothing to show."""
     ax.text(
         0.5,
         0.62,

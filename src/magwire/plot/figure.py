@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from magwire.files import successor
-from magwire.plot import curves, shapes, style
+from magwire.plot import curves, loads, shapes, style
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -25,6 +25,8 @@ WIDE = 1.8
 """Width over height from which a lumen shares its column with the field's panel."""
 COLUMN, AROUND, BELOW = 82.0, 33.0, 46.0
 """Width of a wide lumen, height of what is around it, and of the panel below it [mm]."""
+LOADS = 48.0
+"""Height of the row of forces at the bottom [mm]."""
 FORMATS = ("png", "svg")
 
 
@@ -42,18 +44,21 @@ def draw(data: xr.Dataset, passive: xr.Dataset | None = None) -> Figure:
     -------
     Figure
         Two columns wide (180 mm): shapes of the wire at several feeds, normalised tip force, field
-        components and clearance against normalised push.
+        components and clearance against normalised push; below, where along the lumen the wall is
+        pressed, and the forces on tip and wire and at the guide.
     """
     with mpl.rc_context(style.RC):
         aspect = shapes.aspect(data)
         top = COLUMN / aspect + AROUND
         height = HEIGHT if aspect < WIDE else max(HEIGHT, top + BELOW)
-        figure = Figure(figsize=(style.WIDTH * style.MM, height * style.MM), layout="constrained")
+        size = (style.WIDTH * style.MM, (height + LOADS) * style.MM)
+        figure = Figure(figsize=size, layout="constrained")
         FigureCanvasAgg(figure)
         engine: Any = figure.get_layout_engine()
         engine.set(w_pad=0.03, h_pad=0.03, wspace=0.02, hspace=0.02)
-        halves: Any = figure.subfigures(1, 2, width_ratios=(1.12, 1.0))
-        left, right = halves
+        halves: Any = figure.subfigures(2, 1, height_ratios=(height, LOADS))
+        above, bottom = halves
+        left, right = above.subfigures(1, 2, width_ratios=(1.12, 1.0))
         if aspect < WIDE:
             shape, (force, field, clearance) = left, right.subplots(3, 1, sharex=True)
         else:
@@ -67,8 +72,11 @@ def draw(data: xr.Dataset, passive: xr.Dataset | None = None) -> Figure:
         curves.draw_clearance(clearance, data)
         runs = [data] if passive is None else [data, passive]
         push = np.concatenate([run["normalized_push"].values for run in runs])
-        for letter, panel in zip("bcd", (force, field, clearance), strict=True):
-            panel.set_title(letter, loc="left", fontweight="bold", pad=3.0)
+        panels = (force, field, clearance, *_draw_loads(bottom, runs))
+        for letter, panel in zip("bcdefg", panels, strict=False):
+            panel.set_title(
+                rf"$\bf{{{letter}}}$   {panel.get_title(loc='left')}", loc="left", pad=3.0
+            )
             panel.xaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
             panel.set_xlim(0.0, float(push.max(initial=0.0)) or 1.0)
         figure.draw_without_rendering()  # settles the layout, once for all formats
@@ -127,6 +135,25 @@ def _draw_shapes(panel: Any, data: xr.Dataset) -> None:
     bar.set_ticks([round(float(push[k]), 3) for k in shapes.snapshots(data)])
     bar.ax.tick_params(length=0.0)
     bar.set_label(curves.PUSH_LABEL)
+
+
+def _draw_loads(panel: Any, runs: list[xr.Dataset]) -> list[Any]:
+    """The row of forces, with a heat map for each run; its axes."""
+    axes = list(panel.subplots(1, len(runs) + 1, width_ratios=[*(1.0 for _ in runs), 1.25]))
+    largest = loads.most(runs)
+    for ax, run, name in zip(axes, runs, ("steered", "not steered"), strict=False):
+        mesh = loads.draw_map(ax, run, largest)
+        if len(runs) > 1:
+            ax.set_title(name, loc="left")
+    for ax in axes[1 : len(runs)]:
+        ax.set_ylabel("")
+    if mesh is not None:
+        bar = panel.colorbar(mesh, ax=axes[: len(runs)], aspect=22, pad=0.02)
+        bar.outline.set_visible(False)
+        bar.ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 5, 10]))
+        bar.set_label("wall force [N/m]")
+    loads.draw_forces(axes[-1], *runs)
+    return axes
 
 
 def _title(data: xr.Dataset) -> str:

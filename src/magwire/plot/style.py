@@ -32,6 +32,12 @@ PUSH = LinearSegmentedColormap.from_list(
 )
 """Colour of a wire by its feed: light when little is fed, dark in the end."""
 
+# From white, which is a wall that nothing presses on.
+PRESSURE = LinearSegmentedColormap.from_list(
+    "pressure", ["#ffffff", "#fbe0bd", "#f2a65a", "#d55e00", "#7c2d12", "#2b0f06"]
+)
+"""Colour of the lumen by the force on it."""
+
 RC: Any = {
     "font.family": "DejaVu Sans",
     "font.size": 7.5,

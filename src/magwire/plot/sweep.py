@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 ROWS = (
-    ("max_tip_force", 1e3, "peak tip force [mN]"),
+    ("max_tip_force", 1e3, "peak force\non the tip [mN]"),
+    ("max_wall_force", 1e3, "peak force\non the wire [mN]"),
     ("peak_field", 1e3, "peak field [mT]"),
     ("fed", 1e3, "fed [mm]"),
 )
@@ -28,8 +29,9 @@ SHOWN = {"m": (1e3, "mm"), "T": (1e3, "mT"), "Pa": (1e-6, "MPa"), "A/m": (1e-3, 
 WIDEST = 5
 """Parameters in one figure, at most: the first ones."""
 KINDS = (
-    ("tip clear of the wall", style.CLEARANCE, "o"),
-    ("tip touches the wall", style.FORCE, "s"),
+    ("no contact", style.COMPONENTS[2], "^"),
+    ("wire touches, tip does not", style.CLEARANCE, "o"),
+    ("tip touches", style.FORCE, "s"),
     ("ended early", style.INK, "x"),
 )
 
@@ -45,12 +47,13 @@ def draw_sweep(table: xr.Dataset) -> Figure:
     Returns
     -------
     Figure
-        A column for each parameter; rows for peak tip force, peak field and fed length.
+        A column for each parameter; rows for the peak forces on tip and wire, peak field
+        and fed length.
     """
     names = _varied(table)
     with mpl.rc_context(style.RC):
         width = max(0.55, len(names) / 3.0) * style.WIDTH
-        figure = Figure(figsize=(width * style.MM, 140.0 * style.MM), layout="constrained")
+        figure = Figure(figsize=(width * style.MM, 170.0 * style.MM), layout="constrained")
         FigureCanvasAgg(figure)
         panels: Any = figure.subplots(
             len(ROWS), len(names), sharex="col", sharey="row", squeeze=False
@@ -84,9 +87,7 @@ def draw_sweep(table: xr.Dataset) -> Figure:
                 column[-1].set_xticks(range(len(ticks)), ticks)
                 column[-1].set_xlim(-0.5, len(ticks) - 0.5)
         handles, kinds_drawn = _legend(panels)
-        figure.legend(
-            handles, kinds_drawn, loc="outside upper left", ncols=max(1, len(kinds_drawn))
-        )
+        figure.legend(handles, kinds_drawn, loc="outside upper left", ncols=2 * len(names))
     return figure
 
 
@@ -119,8 +120,9 @@ def save_sweep(table: xr.Dataset, folder: str | Path, name: str = "sweep") -> li
 def _kinds(table: xr.Dataset) -> Any:
     """Place in KINDS of each run; -1 for one that was not done."""
     status = table["status"].values
-    ended = np.where(table["contact_free"].values == 1.0, 0, 1)
-    return np.where(status == "complete", ended, np.where(status == "pending", -1, 2))
+    tip, wire = (table[f"{part}_contact_free"].values == 1.0 for part in ("tip", "wire"))
+    ended = np.where(wire, 0, np.where(tip, 1, 2))
+    return np.where(status == "complete", ended, np.where(status == "pending", -1, 3))
 
 
 def _varied(table: xr.Dataset) -> list[str]:

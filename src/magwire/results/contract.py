@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from magwire.engine.record import Record, RunInfo
 from magwire.files import parse_toml
-from magwire.results import provenance
+from magwire.results import forces, provenance
+from magwire.results.forces import Layout
 
 FLOAT = np.dtype(np.float64)
+Columns = Mapping[str, NDArray[Any]]
 
 
 @dataclass(frozen=True)
@@ -44,13 +47,33 @@ class Variable:
 
 
 @dataclass(frozen=True)
+class Derived:
+    """A variable of the file that follows from others, of many records at once.
+
+    Attributes
+    ----------
+    dims, units, long_name
+        As of ``Variable``.
+    read
+        Its values, with time as their first axis, from the columns of the others.
+    """
+
+    dims: tuple[str, ...]
+    units: str
+    long_name: str
+    read: Callable[[Columns, Layout], NDArray[np.float64]]
+    dtype: np.dtype[Any] = FLOAT
+    extra: tuple[tuple[str, Any], ...] = ()
+
+
+@dataclass(frozen=True)
 class Constant:
     """A variable of the file that is known from the start."""
 
     dims: tuple[str, ...]
     units: str
     long_name: str
-    read: Callable[[RunInfo], Any]
+    read: Callable[[RunInfo, Layout], Any]
     dtype: np.dtype[Any] = FLOAT
 
 
@@ -73,11 +96,26 @@ VARIABLES: dict[str, Variable] = {
         "smallest distance to the wall midway between nodes",
         lambda r, _: r.clearance_midpoint,
     ),
+    "clearance_along": Variable(
+        ("time",),
+        "m",
+        "smallest distance to the wall anywhere along the wire",
+        lambda r, _: r.clearance_along,
+    ),
     "tip_force": Variable(
         ("time",), "N", "magnitude of the force of the wall on the tip", lambda r, _: r.tip_force
     ),
     "tip_offset": Variable(
         ("time",), "m", "distance of the tip from the centreline", lambda r, _: r.tip_offset
+    ),
+    "push_force": Variable(
+        ("time",), "N", "force of the guide on the wire, along the guide", lambda r, _: r.push_force
+    ),
+    "guide_torque": Variable(
+        ("time",),
+        "N m",
+        "torque of the guide on the wire, about the guide",
+        lambda r, _: r.guide_torque,
     ),
     "tip_departure": Variable(
         ("time",),
@@ -117,26 +155,93 @@ VARIABLES: dict[str, Variable] = {
     ),
 }
 
+NODE_FORCE = "node_force"  # sizes of the forces on the nodes: a column that no file holds
+
+DERIVED: dict[str, Derived] = {
+    "wall_force": Derived(
+        ("time",),
+        "N",
+        "force of the wall on the wire, sizes summed over its nodes",
+        lambda c, _: c[NODE_FORCE].sum(axis=1),
+    ),
+    "magnet_force": Derived(
+        ("time",),
+        "N",
+        "force of the wall on the distal magnet",
+        lambda c, at: forces.magnet(at, c[NODE_FORCE]),
+    ),
+    "patch_force": Derived(
+        ("time",),
+        "N",
+        "force of the wall on the patch of the wire where it is largest",
+        lambda c, at: forces.largest_over(at, c[NODE_FORCE], at.patch),
+    ),
+    "force_per_length": Derived(
+        ("time", "node"),
+        "N/m",
+        "force of the wall per length of the wire, smoothed",
+        lambda c, at: forces.per_length(at, c[NODE_FORCE]),
+    ),
+    "contact_length": Derived(
+        ("time",),
+        "m",
+        "shortest length of wire that carries 95 percent of the wall's force",
+        lambda c, at: forces.contact_length(at, c["force_per_length"]),
+    ),
+    "lumen_force": Derived(
+        ("time", "arc"),
+        "N/m",
+        "force of the wall per length of the way to the target, smoothed",
+        lambda c, at: forces.per_way(at, c["position"], c[NODE_FORCE]),
+    ),
+}
+"""By name, each after those that it follows from."""
+
 CONSTANTS: dict[str, Constant] = {
+    "arc": Constant(("arc",), "m", "arc length of the way to the target", lambda _, at: at.arc),
+    "way": Constant(
+        ("arc", "xyz"),
+        "m",
+        "centreline of the way to the target",
+        lambda _, at: at.point(at.arc)[:, :3],
+    ),
     "centreline": Constant(
-        ("centreline_point", "xyz"), "m", "centreline of the lumen", lambda i: i.centreline
+        ("centreline_point", "xyz"), "m", "centreline of the lumen", lambda i, _: i.centreline
     ),
     "lumen_radius": Constant(
-        ("centreline_point",), "m", "radius of the lumen", lambda i: i.lumen_radius
+        ("centreline_point",), "m", "radius of the lumen", lambda i, _: i.lumen_radius
     ),
     "lumen_branch": Constant(
         ("centreline_point",),
         "1",
         "branch that a point of the centreline belongs to",
-        lambda i: i.lumen_branch,
+        lambda i, _: i.lumen_branch,
         np.dtype(np.int32),
     ),
 }
 
 
-def sizes(info: RunInfo) -> dict[str, int]:
-    """Lengths of the dimensions other than time."""
-    return {"node": info.nodes, "xyz": 3, "centreline_point": len(info.lumen_radius)}
+def layout_of(info: RunInfo) -> Layout:
+    """Where the forces of a run are summed."""
+    return Layout(info.scales.length, info.nodes, info.magnet, info.way)
+
+
+def sizes(info: RunInfo, layout: Layout) -> dict[str, int]:
+    """Lengths of the dimensions other than time; in open space some are zero."""
+    return {
+        "node": info.nodes,
+        "xyz": 3,
+        "arc": len(layout.arc),
+        "centreline_point": len(info.lumen_radius),
+    }
+
+
+def derive(columns: Columns, layout: Layout) -> dict[str, NDArray[Any]]:
+    """The columns that follow from those of the records."""
+    known = dict(columns) | {NODE_FORCE: forces.sizes(columns["contact_force"])}
+    for name, derived in DERIVED.items():
+        known[name] = derived.read(known, layout)
+    return {name: known[name] for name in DERIVED}
 
 
 def plain(text: str) -> str:
@@ -149,7 +254,17 @@ def _title_of(scenario: str) -> str:
     return title if isinstance(title, str) else ""
 
 
-def opening_attributes(info: RunInfo, version: str) -> dict[str, Any]:
+def force_attributes(layout: Layout) -> dict[str, float]:
+    """Attributes that say what the forces are sums over."""
+    begin, end = layout.magnet
+    return {
+        "force_patch": float(layout.patch),
+        "magnet_begin": float(begin),
+        "magnet_end": float(end),
+    }
+
+
+def opening_attributes(info: RunInfo, layout: Layout, version: str) -> dict[str, Any]:
     """Attributes of the file that are known from the start."""
     return {
         "Conventions": "CF-1.11",
@@ -162,6 +277,7 @@ def opening_attributes(info: RunInfo, version: str) -> dict[str, Any]:
         "length_scale": float(info.scales.length),
         "force_scale": float(info.scales.force),
         "field_scale": float(info.scales.flux_density),
+        **force_attributes(layout),
     }
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from magwire.errors import ResultError
-from magwire.results.contract import CONSTANTS, VARIABLES, running_attributes
+from magwire.results.contract import CONSTANTS, DERIVED, VARIABLES, running_attributes
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -19,6 +19,8 @@ FIRST = (
     "normalized_push", "normalized_field", "normalized_tip_force",
 )  # fmt: skip
 """Variables that every result has; those that came later may be absent from older files."""
+LUMEN = ("centreline", "lumen_radius", "lumen_branch")
+KNOWN: dict[str, Any] = VARIABLES | DERIVED | CONSTANTS
 TEXTS = ("status", "message", "scenario", "motion")
 NUMBERS = (*running_attributes(None), "length_scale", "force_scale", "field_scale")
 PACKED = 1000
@@ -63,7 +65,7 @@ def _damage(file: Any) -> str:
         return f"is damaged: it lacks {' and '.join(absent[:3])}"
     for name in file:
         held = file[name]
-        if name in VARIABLES or name in CONSTANTS:
+        if name in KNOWN:
             stored = held.id.get_storage_size() * (1 if held.compression is None else PACKED)
             if held.size * held.dtype.itemsize > stored:
                 return f"is damaged: {name} claims {held.size} numbers, more than are stored"
@@ -72,9 +74,8 @@ def _damage(file: Any) -> str:
 
 def _misfit(dataset: xr.Dataset) -> str:
     """What does not fit together; "" if all does."""
-    known = VARIABLES | CONSTANTS
     for name, variable in dataset.variables.items():
-        wanted = known.get(str(name))
+        wanted = KNOWN.get(str(name))
         if wanted is None:
             continue
         if variable.dims != wanted.dims or variable.dtype.kind not in "fiu":
@@ -82,9 +83,9 @@ def _misfit(dataset: xr.Dataset) -> str:
     sizes = dataset.sizes
     if sizes.get("xyz") != 3 or sizes.get("node", 0) < 2:
         return f"is damaged: it has dimensions of {dict(sizes)}"
-    present = [name for name in CONSTANTS if name in dataset.variables]
-    if present and len(present) < len(CONSTANTS):
-        return f"is damaged: it lacks {' and '.join(n for n in CONSTANTS if n not in present)}"
+    absent = [name for name in LUMEN if name not in dataset.variables]
+    if absent and len(absent) < len(LUMEN):  # none of them is there in open space
+        return f"is damaged: it lacks {' and '.join(absent)}"
     if any(not isinstance(dataset.attrs[name], str) for name in TEXTS):
         return f"is damaged: {' and '.join(TEXTS)} must be texts"
     for name in NUMBERS:

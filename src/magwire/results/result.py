@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.errors import ResultError
+from magwire.errors import ResultError, positive
 from magwire.files import successor
-from magwire.results import disk, loading
+from magwire.results import disk, forces, loading
+from magwire.results.older import completed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,11 +27,17 @@ class Result:
     Parameters
     ----------
     dataset
-        Variables and attributes as in a result file.
+        Variables and attributes as in a result file. What files of earlier versions lack is added
+        if it follows from what they hold.
+
+    Notes
+    -----
+    Largest and mean tip forces, first contact and so ``tip_contact_free`` and ``wire_contact_free``
+    are of all steps; all other extremes are of the records.
     """
 
     def __init__(self, dataset: xr.Dataset) -> None:
-        self.dataset = dataset
+        self.dataset = completed(dataset)
 
     @classmethod
     def load(cls, path: str | Path) -> Result:
@@ -128,7 +135,7 @@ class Result:
 
     @property
     def smallest_clearance(self) -> float:
-        """Smallest distance to the wall at nodes and midway between them [m]; NaN without a wall.
+        """Smallest distance to the wall anywhere along the wire [m]; NaN without a wall.
 
         It is the distance that the scenario's wall convention counts (P-12).
         """
@@ -136,6 +143,7 @@ class Result:
             self._number("smallest_clearance"),
             *self.clearance.ravel(),
             *self.dataset["clearance_midpoint"].values,
+            *self.dataset.get("clearance_along", []),
         ]
         finite = np.array(found)[np.isfinite(found)]
         return float(finite.min()) if finite.size else float("nan")
@@ -147,9 +155,76 @@ class Result:
         return None if np.isnan(feed) else feed
 
     @property
-    def contact_free(self) -> bool:
-        """Whether the tip never felt the wall in any step; the body of the wire may have."""
+    def tip_contact_free(self) -> bool:
+        """Whether the tip never felt the wall in any step; the wire behind it may have."""
         return self.max_tip_force == 0.0
+
+    @property
+    def wire_contact_free(self) -> bool:
+        """Whether no part of the wire, tip or body, felt the wall in any step."""
+        return self.first_contact is None
+
+    @property
+    def contact_free(self) -> bool:
+        """Another name of ``tip_contact_free``: of the tip alone, the wire may touch the wall."""
+        return self.tip_contact_free
+
+    @property
+    def max_wall_force(self) -> float:
+        """Largest force of the wall on the wire, summed over its nodes [N].
+
+        Over all records; no less than the largest force on the tip, which is over all steps.
+        """
+        return max(self._largest("wall_force"), self.max_tip_force)
+
+    @property
+    def force_patch(self) -> float:
+        """Length of wire that patch forces are of, and over which others are smoothed [m]."""
+        return self._number("force_patch")
+
+    @property
+    def max_patch_force(self) -> float:
+        """Largest force of the wall on any ``force_patch`` of wire [N]; see ``max_wall_force``."""
+        return max(self._largest("patch_force"), self.max_tip_force)
+
+    @property
+    def max_magnet_force(self) -> float:
+        """Largest force of the wall on the distal magnet, over all records [N]; NaN without one."""
+        return self._largest("magnet_force")
+
+    @property
+    def max_push_force(self) -> float:
+        """Largest push at the guide over all records [N]; NaN if unknown (P-38)."""
+        return self._largest("push_force")
+
+    @property
+    def max_guide_torque(self) -> float:
+        """Largest size of the torque at the guide over all records [N m]; NaN if unknown."""
+        return float(np.max(np.abs(self.guide_torque), initial=0.0))
+
+    @property
+    def longest_contact(self) -> float:
+        """Largest contact length over all records [m]."""
+        return self._largest("contact_length")
+
+    def largest_force_over(self, length: float) -> Array:
+        """Largest force of the wall on any stretch of the wire of some length, shape (t,) [N].
+
+        Parameters
+        ----------
+        length
+            Of the stretch [m], an edge at least for a number that does not hang on the mesh.
+
+        Raises
+        ------
+        InputError
+            If the length is not positive.
+        """
+        positive("Result.largest_force_over", "length", length, "m")
+        nodes = self.dataset.sizes["node"]
+        whole = self._number("length_scale")
+        wire = forces.Layout(whole, nodes, (np.nan, np.nan), np.zeros((0, 4)))
+        return forces.largest_over(wire, forces.sizes(self.contact_force), min(length, whole))
 
     @property
     def largest_tip_offset(self) -> float:
@@ -250,6 +325,41 @@ class Result:
         return self._array("tip_departure")
 
     @property
+    def push_force(self) -> Array:
+        """Force of the guide on the wire, along the guide, shape (t,) [N] (P-38)."""
+        return self._array("push_force")
+
+    @property
+    def guide_torque(self) -> Array:
+        """Torque of the guide on the wire, about the guide, shape (t,) [N m] (P-38)."""
+        return self._array("guide_torque")
+
+    @property
+    def wall_force(self) -> Array:
+        """Force of the wall on the wire, sizes summed over its nodes, shape (t,) [N]."""
+        return self._array("wall_force")
+
+    @property
+    def patch_force(self) -> Array:
+        """Largest force of the wall on any ``force_patch`` of wire, shape (t,) [N] (P-37)."""
+        return self._array("patch_force")
+
+    @property
+    def magnet_force(self) -> Array:
+        """Force of the wall on the distal magnet, shape (t,) [N]; NaN without one."""
+        return self._array("magnet_force")
+
+    @property
+    def contact_length(self) -> Array:
+        """Shortest length of wire that carries 95 percent of the wall's force, shape (t,) [m]."""
+        return self._array("contact_length")
+
+    @property
+    def force_per_length(self) -> Array:
+        """Force of the wall per length of wire, smoothed, shape (t, nodes) [N/m] (P-37)."""
+        return self._array("force_per_length")
+
+    @property
     def stable(self) -> NDArray[np.bool_]:
         """Whether the tangent stiffness is positive definite, shape (t,)."""
         return self._array("stable") > 0.0
@@ -271,6 +381,10 @@ class Result:
 
     def _array(self, name: str) -> Array:
         return np.asarray(self.dataset[name].values, dtype=np.float64)
+
+    def _largest(self, name: str) -> float:
+        """Largest value over all records, no less than zero; NaN if unknown."""
+        return float(np.max(self._array(name), initial=0.0))
 
     def _number(self, name: str) -> float:
         value: Any = self.dataset.attrs[name]

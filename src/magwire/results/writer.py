@@ -20,8 +20,14 @@ from magwire.interrupt import Terminated
 from magwire.results import disk
 from magwire.results.contract import (
     CONSTANTS,
+    DERIVED,
     FLOAT,
     VARIABLES,
+    Constant,
+    Derived,
+    Variable,
+    derive,
+    layout_of,
     opening_attributes,
     running_attributes,
     sizes,
@@ -66,6 +72,8 @@ class Writer:
 
     def __init__(self, info: RunInfo, path: str | Path | None = None) -> None:
         self.info = info
+        self.layout = layout_of(info)
+        self.sizes = sizes(info, self.layout)
         self.path = None if path is None else Path(path)
         self.closed = False
         self._waiting: list[Record] = []
@@ -73,7 +81,7 @@ class Writer:
         self._written = 0
         self._due = 0.0
         self._claim = ExitStack()
-        self._attributes = opening_attributes(info, magwire.__version__)
+        self._attributes = opening_attributes(info, self.layout, magwire.__version__)
         self._attributes |= {"status": "running", "message": ""} | running_attributes(None)
         if self.path is not None:
             self._begin(self.path)
@@ -151,29 +159,38 @@ class Writer:
 
     def _columns(self, records: list[Record]) -> dict[str, Any]:
         """The variables of some records, each with time as its first axis."""
-        return {
+        columns = {
             name: np.array([v.read(r, self.info) for r in records], dtype=v.dtype).reshape(
-                len(records), *(sizes(self.info)[dim] for dim in v.dims[1:])
+                len(records), *(self.sizes[dim] for dim in v.dims[1:])
             )
             for name, v in VARIABLES.items()
         }
+        derived = derive(columns, self.layout)
+        return columns | {name: derived[name] for name in derived if self._exists(DERIVED[name])}
 
     def _dataset(self) -> xr.Dataset:
         import xarray as xr
 
         data: dict[str, Any] = {}
         for name, column in self._columns(self._waiting).items():
-            variable = VARIABLES[name]
+            variable = (VARIABLES | DERIVED)[name]
             notes = {"units": variable.units, "long_name": variable.long_name}
             data[name] = (variable.dims, column, notes | dict(variable.extra))
         for name, constant in self._constants().items():
             notes = {"units": constant.units, "long_name": constant.long_name}
-            data[name] = (constant.dims, constant.read(self.info).astype(constant.dtype), notes)
+            data[name] = (constant.dims, self._constant(constant), notes)
         return xr.Dataset(data, attrs=self._attributes).set_coords("time")
 
-    def _constants(self) -> dict[str, Any]:
+    def _constants(self) -> dict[str, Constant]:
         """The variables without time; a run in open space has none."""
-        return CONSTANTS if sizes(self.info)["centreline_point"] else {}
+        return {name: c for name, c in CONSTANTS.items() if self._exists(c)}
+
+    def _constant(self, constant: Constant) -> Any:
+        return np.asarray(constant.read(self.info, self.layout)).astype(constant.dtype)
+
+    def _exists(self, variable: Variable | Derived | Constant) -> bool:
+        """Whether a variable has anything to say: none of its dimensions is empty."""
+        return all(self.sizes.get(dim, 1) > 0 for dim in variable.dims)
 
     def _begin(self, path: Path) -> None:
         """Make the file, without records."""
@@ -208,13 +225,12 @@ class Writer:
 
     def _lay_out(self, file: Any) -> None:
         """All that is known from the start, and no records."""
-        lengths, constants = sizes(self.info), self._constants()
-        if not constants:
-            lengths.pop("centreline_point")
+        lengths = {name: size for name, size in self.sizes.items() if size > 0}
         file.dimensions = {"time": None, **lengths}
         for name, value in self._attributes.items():
             file.attrs[name] = value
-        for name, variable in VARIABLES.items():
+        growing = {n: v for n, v in (VARIABLES | DERIVED).items() if self._exists(v)}
+        for name, variable in growing.items():
             shape = tuple(lengths[dim] for dim in variable.dims[1:])
             rows = max(1, CHUNK_BYTES // (variable.dtype.itemsize * int(np.prod(shape))))
             # What is missing is NaN, not zero; coordinates have no fill value.
@@ -224,9 +240,9 @@ class Writer:
             )
             notes = {"units": variable.units, "long_name": variable.long_name}
             made.attrs.update(notes | dict(variable.extra))
-        for name, constant in constants.items():
+        for name, constant in self._constants().items():
             made = file.create_variable(name, constant.dims, constant.dtype)
-            made[...] = constant.read(self.info)
+            made[...] = self._constant(constant)
             made.attrs.update({"units": constant.units, "long_name": constant.long_name})
 
 

@@ -14,6 +14,7 @@ from magwire.scenario.navigators import ModelSteering, ScheduledSteering
 from magwire.scenario.synthetic import SyntheticLumen
 from magwire.scenario.tables import (
     ConstantFeed,
+    MakeTable,
     SectionedWire,
     TabledFeed,
     UniformFieldTable,
@@ -21,39 +22,45 @@ from magwire.scenario.tables import (
 )
 from magwire.scenario.vessels import VesselLumen
 from magwire.units import show
+from magwire.wire.make import Make, contradictions
 
 Faults = Iterator[str]
 SLACK = 1e-9
 """Relative room for rounding in comparisons of lengths."""
 
 
+def makes(scenario: Scenario) -> Faults:
+    """What a wire is made of is said once, and nothing is left out."""
+    for where, table in _makes(scenario):
+        given = {name for name in Make.__dataclass_fields__ if vars(table).get(name, 0) is not None}
+        yield from contradictions(given, (where + ".{}").format)
+
+
 def bores(scenario: Scenario) -> Faults:
     """A hollow wire has some wall."""
-    wire = scenario.wire
-    if isinstance(wire, UniformWire):
-        tubes = iter([("wire", wire.inner_radius, wire.radius)])
-    else:
-        tubes = (
-            (f"wire.sections[{i}]", section.inner_radius, section.radius)
-            for i, section in enumerate(wire.sections)
-        )
-    for name, inner, outer in tubes:
-        if inner >= outer:
+    if any(makes(scenario)):
+        return
+    for name, table in _makes(scenario):
+        if table.bore >= table.outer_radius:
+            inner = "inner_radius" if table.inner_radius is not None else "inner_diameter"
+            outer = "radius" if table.radius is not None else "diameter"
+            has = table.bore if inner == "inner_radius" else table.inner_diameter
+            limit = table.outer_radius if outer == "radius" else table.diameter
             yield (
-                f"Input {name}.inner_radius must be smaller than {name}.radius, "
-                f"{show(outer, 'length')}; received {show(inner, 'length')}."
+                f"Input {name}.{inner} must be smaller than {name}.{outer}, "
+                f"{show(limit or 0.0, 'length')}; received {show(has or 0.0, 'length')}."
             )
 
 
 def magnetized_tip(scenario: Scenario) -> Faults:
     """The magnetised tip is part of the wire, and the mesh resolves it."""
     wire = scenario.wire
-    if not isinstance(wire, UniformWire) or not any(wire.magnetization):
+    if not isinstance(wire, UniformWire) or not wire.magnetized:
         return
     tip, received = wire.magnetized_tip, show(wire.magnetized_tip, "length")
     if tip == 0.0:
         yield (
-            "Input wire.magnetized_tip must be positive for a wire with wire.magnetization; "
+            f"Input wire.magnetized_tip must be positive for a wire with wire.{_magnet(wire)}; "
             f"received {received}."
         )
     elif tip > wire.length * (1.0 + SLACK):
@@ -77,7 +84,7 @@ def magnetized_sections(scenario: Scenario) -> Faults:
         return
     for i, section in enumerate(wire.sections):
         least = math.ceil(wire.total_length / section.length * (1.0 - SLACK)) + 1
-        if any(section.magnetization) and wire.nodes < least:
+        if section.magnetized and wire.nodes < least:
             yield (
                 f"Input wire.nodes must be at least {least} for the magnetised wire.sections[{i}] "
                 f"of {show(section.length, 'length')} to span one edge; received {wire.nodes}."
@@ -86,26 +93,29 @@ def magnetized_sections(scenario: Scenario) -> Faults:
 
 def wire_fits(scenario: Scenario) -> Faults:
     """The wire is thinner than the lumen."""
-    if any(outlets(scenario)) or any(formula(scenario)):
+    if any(any(check(scenario)) for check in (makes, outlets, formula)):
         return
     wire, lumen = scenario.wire.largest_radius, scenario.lumen.narrowest
     if wire >= lumen:
+        wide = isinstance(scenario.wire, UniformWire) and scenario.wire.radius is None
+        what, times = ("diameter", 2.0) if wide else ("radius", 1.0)
         yield (
-            f"Input wire.radius must be smaller than the lumen's smallest radius, "
-            f"{show(lumen, 'length')}; received {show(wire, 'length')}."
+            f"Input wire.{what} must be smaller than the lumen's smallest {what}, "
+            f"{show(times * lumen, 'length')}; received {show(times * wire, 'length')}."
         )
 
 
 def activation_gap(scenario: Scenario) -> Faults:
     """A wire in the middle of the lumen does not feel the wall."""
-    if any(outlets(scenario)) or any(formula(scenario)):
+    if any(any(check(scenario)) for check in (makes, outlets, formula)):
         return
     wire, lumen = scenario.wire.largest_radius, scenario.lumen.narrowest
     free = lumen - wire if scenario.contact.wall == "surface" else lumen
-    if wire < lumen and scenario.contact.activation_gap >= free:
+    gap = scenario.contact.activation_gap
+    if wire < lumen and gap != "auto" and gap >= free:
         yield (
             "Input contact.activation_gap must be smaller than the free gap of the lumen, "
-            f"{show(free, 'length')}; received {show(scenario.contact.activation_gap, 'length')}."
+            f"{show(free, 'length')}; received {show(gap, 'length')}."
         )
 
 
@@ -258,7 +268,7 @@ def magnet_to_steer(scenario: Scenario) -> Faults:
         return
     wire = scenario.wire
     sections = (wire,) if isinstance(wire, UniformWire) else wire.sections
-    if not any(any(section.magnetization) for section in sections):
+    if not any(section.magnetized for section in sections):
         key = "magnetization" if isinstance(wire, UniformWire) else "sections"
         yield (
             f"Input wire.{key} must have a magnetisation for navigate.method "
@@ -300,6 +310,7 @@ _TABLES = {
     "coronary_tree": "lumen",
     "tortuous": "lumen",
     "Wire": "wire",
+    "Make": "wire",
     "Section": "wire",
     "UniformField": "field",
     "GradientField": "field",
@@ -313,6 +324,7 @@ _TABLES = {
 _OWNER = re.compile(rf"^Input (\w+) of ({'|'.join(_TABLES)})(?:\.\w+)?\b")
 
 CHECKS: tuple[Callable[[Scenario], Faults], ...] = (
+    makes,
     bores,
     magnetized_tip,
     magnetized_sections,
@@ -351,6 +363,21 @@ def cross_faults(scenario: Scenario, *, whole: bool) -> list[str]:
             if whole:
                 raise
     return list(dict.fromkeys(faults))
+
+
+def _makes(scenario: Scenario) -> Iterator[tuple[str, MakeTable]]:
+    """Each table that says what wire is made of, with its name."""
+    wire = scenario.wire
+    if isinstance(wire, UniformWire):
+        yield "wire", wire
+    else:
+        for i, section in enumerate(wire.sections):
+            yield f"wire.sections[{i}]", section
+
+
+def _magnet(wire: MakeTable) -> str:
+    """The key that magnetises the wire."""
+    return "magnetization" if wire.remanence is None else "remanence"
 
 
 def _farthest(scenario: Scenario) -> float:

@@ -64,6 +64,7 @@ class Job:
                 damping=scenario.solver.damping,
                 gravity=scenario.environment.gravity,
                 fluid_density=scenario.environment.fluid_density,
+                tip_load=scenario.environment.tip_load,
                 release=scenario.solver.release,
             )
             feed = scenario.feed.build()

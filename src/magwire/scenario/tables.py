@@ -6,25 +6,34 @@ import itertools
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from magwire.scenario.quantity import (
     Acceleration,
     Angle,
+    BendingStiffness,
     Density,
     DensityOrZero,
+    Diameter,
+    DiameterOrZero,
     FluxDensity,
+    Force,
     Length,
     LengthOrZero,
     Magnetization,
+    MassPerLength,
     Place,
+    PoissonRatio,
     Pressure,
     Quantity,
     Rate,
+    Remanence,
     RestCurvature,
+    RestTwist,
     Row,
     Rows,
     Speed,
+    StretchingStiffness,
     Time,
     Vector3,
     Whole,
@@ -35,7 +44,7 @@ if TYPE_CHECKING:
     from magwire.contact import Barrier
     from magwire.engine.feed import Feed
     from magwire.field import GradientField, UniformField
-    from magwire.wire import Section, Wire
+    from magwire.wire import Make, Section, Wire
 
 NO_FLUX = ["0 mT", "0 mT", "0 mT"]
 NO_MAGNETIZATION = ["0 kA/m", "0 kA/m", "0 kA/m"]
@@ -68,74 +77,93 @@ FluxGradient = Annotated[
 ]
 
 
-class UniformWire(Table):
-    """A wire of one material with, if wanted, its distal end magnetised."""
+class MakeTable(Table):
+    """What a length of wire is made of; ``checks.makes`` says what goes together."""
 
     length: Length
-    nodes: Nodes
-    radius: Length
-    inner_radius: LengthOrZero = preset("0 mm")
-    youngs_modulus: Pressure
-    shear_modulus: Pressure
-    density: Density
-    magnetized_tip: LengthOrZero = preset("0 mm")
-    magnetization: Magnetization = preset(NO_MAGNETIZATION)
+    diameter: Diameter | None = None
+    radius: Length | None = None
+    inner_diameter: DiameterOrZero | None = None
+    inner_radius: LengthOrZero | None = None
+    taper_to: Diameter | None = None
+    youngs_modulus: Pressure | None = None
+    shear_modulus: Pressure | None = None
+    poisson_ratio: PoissonRatio | None = None
+    bending_stiffness: BendingStiffness | None = None
+    twisting_stiffness: BendingStiffness | None = None
+    stretching_stiffness: StretchingStiffness | None = None
+    density: Density | None = None
+    mass_per_length: MassPerLength | None = None
+    magnetization: Magnetization | None = None
+    remanence: Remanence | None = None
     rest_curvature: RestCurvature = preset(STRAIGHT)
+    rest_twist: RestTwist = preset("0 rad/m")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _fill(cls, given: Any) -> Any:
+        """Solid and not magnetised, if nothing else is said."""
+        if not isinstance(given, dict):
+            return given
+        filled = dict(given)
+        if not {"inner_radius", "inner_diameter"} & set(given):
+            filled["inner_radius"] = "0 mm"
+        if not {"magnetization", "remanence"} & set(given):
+            filled["magnetization"] = NO_MAGNETIZATION
+        return filled
+
+    @property
+    def outer_radius(self) -> float:
+        """Outer radius [m], at the proximal end."""
+        return self.radius if self.radius is not None else 0.5 * (self.diameter or 0.0)
+
+    @property
+    def bore(self) -> float:
+        """Inner radius [m]."""
+        inner = self.inner_radius
+        return inner if inner is not None else 0.5 * (self.inner_diameter or 0.0)
+
+    @property
+    def largest_radius(self) -> float:
+        """Outer radius where it is widest [m]."""
+        return max(self.outer_radius, 0.5 * (self.taper_to or 0.0))
+
+    @property
+    def magnetized(self) -> bool:
+        """Whether any of it is."""
+        return any((*(self.magnetization or ()), *(self.remanence or ())))
+
+    def make(self) -> Make:
+        """The same as a model."""
+        from magwire.wire import Make
+
+        return Make(**{name: getattr(self, name) for name in Make.__dataclass_fields__})
+
+
+class UniformWire(MakeTable):
+    """A wire of one make with, if wanted, its distal end magnetised."""
+
+    nodes: Nodes
+    magnetized_tip: LengthOrZero = preset("0 mm")
 
     @property
     def total_length(self) -> float:
         """Length of the wire [m]."""
         return self.length
 
-    @property
-    def largest_radius(self) -> float:
-        """Outer radius [m]."""
-        return self.radius
-
     def build(self) -> Wire:
         """The wire as a model."""
         from magwire.wire import Wire
 
-        return Wire.uniform(
-            length=self.length,
-            radius=self.radius,
-            youngs_modulus=self.youngs_modulus,
-            shear_modulus=self.shear_modulus,
-            density=self.density,
-            nodes=self.nodes,
-            magnetized_tip=self.magnetized_tip,
-            magnetization=self.magnetization,
-            inner_radius=self.inner_radius,
-            rest_curvature=self.rest_curvature,
-        )
+        return Wire.of(self.make(), self.length, self.nodes, magnetized_tip=self.magnetized_tip)
 
 
-class SectionTable(Table):
+class SectionTable(MakeTable):
     """A stretch of wire of one make."""
-
-    length: Length
-    radius: Length
-    inner_radius: LengthOrZero = preset("0 mm")
-    youngs_modulus: Pressure
-    shear_modulus: Pressure
-    density: Density
-    magnetization: Magnetization = preset(NO_MAGNETIZATION)
-    rest_curvature: RestCurvature = preset(STRAIGHT)
 
     def build(self) -> Section:
         """The section as a model."""
-        from magwire.wire import Section
-
-        return Section(
-            length=self.length,
-            youngs_modulus=self.youngs_modulus,
-            shear_modulus=self.shear_modulus,
-            radius=self.radius,
-            density=self.density,
-            inner_radius=self.inner_radius,
-            magnetization=self.magnetization,
-            rest_curvature=self.rest_curvature,
-        )
+        return self.make().section(self.length)
 
 
 class SectionedWire(Table):
@@ -152,7 +180,7 @@ class SectionedWire(Table):
     @property
     def largest_radius(self) -> float:
         """Largest outer radius [m]."""
-        return max(section.radius for section in self.sections)
+        return max(section.largest_radius for section in self.sections)
 
     def build(self) -> Wire:
         """The wire as a model."""
@@ -192,8 +220,8 @@ class GradientFieldTable(Table):
 class ContactTable(Table):
     """How the wall acts on the wire."""
 
-    stiffness: Pressure = preset("1 kPa")
-    activation_gap: Length = preset("0.1 mm")
+    stiffness: Pressure | Literal["auto"] = "auto"
+    activation_gap: Length | Literal["auto"] = "auto"
     wall: Literal["surface", "centreline"] = "surface"
 
     def build(self) -> Barrier:
@@ -270,10 +298,11 @@ class SolverTable(Table):
 
 
 class EnvironmentTable(Table):
-    """What surrounds the wire."""
+    """What surrounds the wire, and what pulls at it."""
 
     gravity: Acceleration = preset(["0 m/s^2", "0 m/s^2", "0 m/s^2"])
     fluid_density: DensityOrZero = preset("0 kg/m^3")
+    tip_load: Force = preset(["0 mN", "0 mN", "0 mN"])
 
 
 class OutputTable(Table):

@@ -80,7 +80,7 @@ def _system(name: str, magnet: float) -> System:
     wire = Wire.uniform(
         L, 0.6e-3, 3e6, 1e6, 2000.0, NODES, magnetized_tip=magnet, magnetization=128e3
     )
-    return System(wire, LUMENS[name]().with_entry(ENTRY * L), Barrier(wall="centreline"))
+    return System(wire, LUMENS[name]().with_entry(ENTRY * L), Barrier(1e3, 1e-4, wall="centreline"))
 
 
 def _forces(run: _Run, name: str, drawing: str) -> Iterator[Line | Curve]:

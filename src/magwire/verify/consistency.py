@@ -59,7 +59,7 @@ def _half_circle(radius: float = RADIUS) -> Lumen:
 
 
 def _simulation(lumen: Lumen, wire: Wire = WIRE, wall: str = "surface") -> Simulation:
-    return Simulation(wire, lumen, contact=Barrier(wall=wall))  # type: ignore[arg-type]
+    return Simulation(wire, lumen, contact=Barrier(1e3, 1e-4, wall=wall))  # type: ignore[arg-type]
 
 
 def _same(case: str, quantity: str, difference: float, tolerance: float, unit: str = "L") -> Line:

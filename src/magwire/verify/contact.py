@@ -18,7 +18,7 @@ from magwire.lumen import Lumen
 from magwire.simulation import Simulation
 from magwire.verify import tubes
 from magwire.verify.evidence import NODES, Curve, Line
-from magwire.verify.references import hard_contact
+from magwire.verify.references import hard_contact, pushed
 from magwire.wire import Wire
 
 Array = NDArray[np.float64]
@@ -29,7 +29,7 @@ WIRE = Wire.uniform(
 )
 FORCE = WIRE.bending_stiffness / L**2
 HARD = "least energy of a chain of rigid links between hard walls (SLSQP)"
-SPECIFIED = "nonlinear programme of an inextensible wire in hard contact, by others, three digits"
+SPACE = "inextensible rod of links of L/100 in a hard wall, Newton's method (KKT)"
 
 
 @dataclass(frozen=True)
@@ -157,15 +157,27 @@ def _rate(power: float) -> Iterator[Line]:
 def _peaks() -> Iterator[Line]:
     """Whole quasi-static pushes with the paper's barrier.
 
-    Half-circles against the chain between hard walls, pushed link by link about where it peaks.
+    Half-circles against the chain between hard walls, pushed link by link about where it peaks;
+    the others against a rod in space.
     """
     for width, least in ((0.02, 17), (0.03, 22), (0.04, 26)):
         bend = _Bend(0.25, width)
         pressed = [_hard(bend, links, 0.0) for links in range(least, least + 4)]
         expected = max(float(_sizes(hard.wall_force)[-1]) for hard in pressed)
         yield _peak(f"half-circle, 2R/L = {2.0 * width:g}", bend.lumen, expected, HARD)
-    sinusoid = Lumen.sinusoid(0.15 * L, 0.8 * L, 0.8 * L, 0.03 * L)
-    yield _peak("sinusoid, 2R/L = 0.06", sinusoid, 45.1, SPECIFIED)
+    for case, name, lumen in (
+        ("sinusoid", "sinusoid, 2R/L = 0.06", Lumen.sinusoid(0.15 * L, 0.8 * L, 0.8 * L, 0.03 * L)),
+        ("helix", "helix, 2R/L = 0.06", Lumen.helix(0.1 * L, 0.1 * L, 0.9 * L, 0.03 * L)),
+        ("cone", "half-circle, R/L from 0.04 to 0.02", _cone()),
+    ):
+        yield _peak(name, lumen, float(pushed.curve(case, 100)[:, 1].max()), SPACE)
+
+
+def _cone() -> Lumen:
+    """The half-circle, its radius falling from 0.04 to 0.02 L."""
+    passage = pushed.CASES["cone"]
+    w = np.linspace(0.0, passage.end, 200)
+    return Lumen.through(passage.curve(w)[0] * L, (passage.radius + passage.taper * w) * L)
 
 
 def _peak(name: str, lumen: Lumen, expected: float, source: str) -> Line:

@@ -24,7 +24,8 @@ from magwire.wire import Wire
 Array = NDArray[np.float64]
 GROUP = "dynamics"
 L, RADIUS = 0.1, 0.4e-3
-WIRE = Wire.uniform(L, RADIUS, 3e6, 1e6, 2000.0, NODES, magnetized_tip=L, magnetization=20e3)
+YOUNG, SHEAR = 3e6, 1e6
+WIRE = Wire.uniform(L, RADIUS, YOUNG, SHEAR, 2000.0, NODES, magnetized_tip=L, magnetization=20e3)
 UNIT = L**2 * sqrt(WIRE.body.density * WIRE.body.area / WIRE.bending_stiffness)
 """Of time, L^2 sqrt(rho A/EI) [s]."""
 GRADIENT = ((2e-3, 3e-3, 1e-3), (3e-3, -4e-3, 2e-3), (1e-3, 2e-3, 2e-3))
@@ -82,8 +83,8 @@ def _waves() -> Iterator[Line]:
     frequencies, modes = natural_frequencies(_bent(0.0, 0.0), 4 * NODES - 8)
     own = np.abs(modes).max(axis=1)  # by x, y, z, twist angle
     for name, column, modulus in (
-        ("twist", 3, body.shear_modulus),
-        ("stretch", 0, body.youngs_modulus),
+        ("twist", 3, SHEAR),
+        ("stretch", 0, YOUNG),
     ):
         others = np.delete(own, column, axis=1).max(axis=1)
         lowest = frequencies[own[:, column] > 1e3 * others].min()

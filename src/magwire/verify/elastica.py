@@ -199,7 +199,7 @@ def _pinned_postbuckled(full: bool) -> Iterator[Line]:
 def _shape(
     case: str, state: Equilibrium, exact: planar.Shape, source: str, roll: float = 0.0
 ) -> Iterator[Line]:
-    """Angle of the last edge, and all nodes; ``exact`` is at the nodes and the middles between.
+    """Angle of the tip, and all nodes; ``exact`` is at the nodes and the middles between.
 
     ``roll`` is the angle by which the wire's plane is turned about x.
     """
@@ -209,9 +209,8 @@ def _shape(
     away = np.linalg.norm(
         [x - exact.x[::2], y - np.cos(roll) * exact.y[::2], z - np.sin(roll) * exact.y[::2]], axis=0
     )
-    angle = float(np.unwrap([exact.angle[-2], np.arctan2(across, along)])[1])
-    yield Line(GROUP, case, "angle of the last edge", "rad", float(exact.angle[-2]), source, angle,
-               CLOSE)  # fmt: skip
+    angle = float(np.unwrap([exact.angle[-1], np.arctan2(across, along)])[1])
+    yield Line(GROUP, case, "tip angle", "rad", float(exact.angle[-1]), source, angle, CLOSE)
     yield Line(GROUP, case, "largest distance of a node from its place", "L", 0.0, source,
                float(away.max()), CLOSE)  # fmt: skip
 
@@ -232,10 +231,8 @@ def _rest_curvature(full: bool) -> Iterator[Line]:
 
 
 def tapered(ratio: float, nodes: int) -> Wire:
-    """A wire whose radius falls linearly to a part of it, with a section for each edge."""
-    middles = (np.arange(nodes - 1) + 0.5) / (nodes - 1)
-    radii = THIN * (1.0 - (1.0 - ratio) * middles)
-    return Wire(tuple(Section(L / (nodes - 1), radius=float(r), **STUFF) for r in radii), nodes)
+    """A wire whose radius falls linearly to a part of it."""
+    return Wire((Section(L, radius=THIN, end_radius=ratio * THIN, **STUFF),), nodes)
 
 
 def stepped(at: float, soft: float, nodes: int) -> Wire:

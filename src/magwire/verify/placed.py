@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.engine.statics import Equilibrium
-from magwire.kernels.assembly import update_frames
+from magwire.kernels.frames import update_frames
 from magwire.kernels.newton import copy_state
 
 Array = NDArray[np.float64]

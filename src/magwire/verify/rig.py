@@ -19,7 +19,8 @@ from scipy.sparse.linalg import spsolve
 from magwire.contact import Barrier
 from magwire.engine.system import System
 from magwire.kernels.arrays import Field, Motion, Mouth, State
-from magwire.kernels.assembly import assemble, update_frames
+from magwire.kernels.assembly import assemble
+from magwire.kernels.frames import update_frames
 from magwire.kernels.newton import copy_state
 from magwire.lumen import Lumen
 from magwire.verify.wires import magnet

@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from magwire.contact import Barrier
-from magwire.engine.statics import Equilibrium, find_equilibrium
-from magwire.engine.system import System
-from magwire.field import UniformField
-from magwire.kernels.arrays import Motion, Rod
+from magwire.engine.statics import Equilibrium
+from magwire.kernels.arrays import Motion
 from magwire.kernels.assembly import assemble
 from magwire.lumen import Lumen
 from magwire.simulation import Simulation
@@ -52,27 +47,12 @@ def free(wire: Wire, **options: Any) -> Simulation:
     return Simulation(wire, Lumen.open_space(), **options)
 
 
-@dataclass(frozen=True)
-class Pulled(System):
-    """A wire with a dead force on its tip, shape (3,) [EI/L^2], besides its weight."""
-
-    tip_force: tuple[float, float, float] = (0.0, 0.0, 0.0)
-
-    @cached_property
-    def rod(self) -> Rod:
-        """The wire for the kernels; the force is a weight of the last node."""
-        rod = System.rod.func(self)  # type: ignore[attr-defined]
-        weight = rod.weight.copy()
-        weight[-1] += self.tip_force
-        result: Rod = rod._replace(weight=weight)
-        return result
-
-
 def pulled(wire: Wire, force: ArrayLike, *, start: Equilibrium | None = None) -> Equilibrium:
     """The wire in open space under a dead force on its tip, shape (2,) or (3,) [EI/L^2]."""
-    x, y, z = (float(c) for c in (*np.atleast_1d(force), 0.0)[:3])
-    system = Pulled(wire, Lumen.open_space(), Barrier(), tip_force=(x, y, z))
-    return find_equilibrium(system, UniformField(), wire.length, start=start)
+    load = np.zeros(3)
+    load[: np.size(force)] = force
+    load *= wire.bending_stiffness / wire.length**2
+    return free(wire, tip_load=load).equilibrium(wire.length, start=start)
 
 
 def tip(state: Equilibrium) -> tuple[float, float, float]:

@@ -71,10 +71,10 @@ def unit_factor(path: str | Path, units: str | None, drawing: Drawing) -> float:
     """Metres in the file's unit."""
     known = DIMENSIONS["length"].units
     if units is not None:
-        return known[one_of(OWNER, "units", units, known)]
+        return float(known[one_of(OWNER, "units", units, known)])
     if drawing.unit is None or drawing.unit not in known:
         raise InputError(
             f"Input units of {OWNER} must be given for '{path}', which does not state them; its "
             f"numbers look like '{guessed_unit(drawing)}'."
         )
-    return known[drawing.unit]
+    return float(known[drawing.unit])

@@ -66,29 +66,92 @@ class Mesh:
 
 
 class Cells:
-    """The bounds of a wire's edges and cells, and integrals over them."""
+    """The bounds of a wire's edges and cells, and integrals over them.
+
+    Attributes
+    ----------
+    pieces, owner
+        The sections, tapered ones cut wherever an edge or a cell ends, so that no interval ends
+        inside of a taper; which section each piece is of.
+    """
 
     def __init__(self, wire: Wire) -> None:
-        self.sections = wire.sections
         self.station = np.linspace(0.0, wire.length, wire.nodes)
         middle = 0.5 * (self.station[1:] + self.station[:-1])
         self.bounds = np.concatenate(([0.0], middle, [wire.length]))
-        self.ends = np.concatenate(([0.0], np.cumsum([part.length for part in wire.sections])))
-        self.ends[-1] = wire.length
+        whole = np.concatenate(([0.0], np.cumsum([part.length for part in wire.sections])))
+        whole[-1] = wire.length
+        marks = np.union1d(self.station, self.bounds)
+        self.pieces: list[Section] = []
+        owner, ends = [], [0.0]
+        for i, section in enumerate(wire.sections):
+            cuts = [*self._inside(section, marks, whole[i], whole[i + 1]), whole[i + 1]]
+            for cut in cuts:
+                alone = len(cuts) == 1
+                first, last = ends[-1] - whole[i], cut - whole[i]
+                self.pieces.append(section if alone else section.cut(first, last))
+                owner.append(i)
+                ends.append(cut)
+        self.owner, self.ends = np.array(owner), np.array(ends)
         which = np.searchsorted(self.ends, self.station, side="left") - 1
-        self.which = np.clip(which, 0, len(wire.sections) - 1)
+        self.which = np.clip(which, 0, len(self.pieces) - 1)
+
+    @staticmethod
+    def _inside(section: Section, marks: Array, first: float, last: float) -> Array:
+        """Where a tapered section is cut."""
+        if section.end_radius is None:
+            return np.zeros(0)
+        near = 1e-9 * section.length
+        return marks[(marks > first + near) & (marks < last - near)]
 
     def total(self, bounds: Array, density: Callable[[Section], float]) -> Array:
         """Integral of a density over each interval between bounds."""
-        return self.spread(bounds, np.array([density(section) for section in self.sections]))
+        return self.spread(bounds, np.array([density(piece) for piece in self.pieces]))
 
     def spread(self, bounds: Array, heights: Array) -> Array:
-        """The same, of a density given section by section, shape (sections, ...)."""
+        """The same, of a density given piece by piece, shape (pieces, ...)."""
         wide = heights.reshape(len(heights), -1)
-        pieces = wide * np.diff(self.ends)[:, None]
-        sums = np.concatenate((np.zeros((1, wide.shape[1])), np.cumsum(pieces, axis=0)))
+        steps = wide * np.diff(self.ends)[:, None]
+        sums = np.concatenate((np.zeros((1, wide.shape[1])), np.cumsum(steps, axis=0)))
         columns = [np.diff(np.interp(bounds, self.ends, column)) for column in sums.T]
         return np.stack(columns, axis=-1).reshape(-1, *heights.shape[1:])
+
+    def turned(self, bounds: Array, heights: Array) -> Array:
+        """The same, of vectors along m1 and m2, shape (pieces, 2), which turn with the rest twist.
+
+        With m1 + i m2 as complex numbers, a piece of length x contributes an integral of
+        exp(i twist s), which is x exp(i twist x/2) sinc(twist x/2).
+        """
+        twist = np.array([piece.rest_twist for piece in self.pieces])
+        if not np.any(twist):
+            return self.spread(bounds, heights)
+        lengths = np.diff(self.ends)
+        angle = np.concatenate(([0.0], np.cumsum(twist * lengths)))[:-1]
+        start = (heights[:, 0] + 1j * heights[:, 1]) * np.exp(1j * angle)
+
+        def arc(which: NDArray[np.int64], x: Array) -> NDArray[np.complex128]:
+            half = 0.5 * twist[which] * x
+            result: NDArray[np.complex128] = x * np.exp(1j * half) * np.sinc(half / np.pi)
+            return start[which] * result
+
+        sums = np.concatenate(([0.0], np.cumsum(arc(np.arange(len(lengths)), lengths))))
+        last = len(lengths) - 1
+        which = np.clip(np.searchsorted(self.ends, bounds, side="right") - 1, 0, last)
+        whole = np.diff(sums[which] + arc(which, bounds - self.ends[which]))
+        return np.stack([whole.real, whole.imag], axis=1)
+
+    def moments(self, heights: Array) -> Array:
+        """Magnetic moment of each edge, by that per length of each piece, shape (pieces, 3)."""
+        across = self.turned(self.station, heights[:, :2])
+        return np.concatenate((across, self.spread(self.station, heights[:, 2:])), axis=1)
+
+    def radius(self) -> Array:
+        """Outer radius at each node [m]."""
+        pieces = [self.pieces[i] for i in self.which]
+        along = (self.station - self.ends[self.which]) / np.diff(self.ends)[self.which]
+        return np.array(
+            [p.radius * (1.0 + (p.ratio - 1.0) * x) for p, x in zip(pieces, along, strict=True)]
+        )
 
 
 def lay_out(wire: Wire) -> Mesh:
@@ -96,22 +159,20 @@ def lay_out(wire: Wire) -> Mesh:
     cells = Cells(wire)
     station, bounds = cells.station, cells.bounds
     edge_length = np.diff(station)
-    moments = np.array([section.moment_per_length for section in wire.sections])
-    curvatures = np.array([section.rest_curvature for section in wire.sections])
+    moments = np.array([piece.moment_per_length for piece in cells.pieces])
+    curvatures = np.array([piece.rest_curvature for piece in cells.pieces])
     return Mesh(
         station=station,
         cell_end=bounds[1:],
         edge_length=edge_length,
         stretching_stiffness=edge_length
         / cells.total(station, lambda s: 1.0 / s.stretching_stiffness),
-        moment=cells.spread(station, moments),
-        axial_inertia=cells.total(
-            station, lambda s: 0.5 * s.density * s.area * (s.radius**2 + s.inner_radius**2)
-        ),
+        moment=cells.moments(moments),
+        axial_inertia=cells.total(station, lambda s: s.axial_inertia),
         bending_stiffness=1.0 / cells.total(bounds, lambda s: 1.0 / s.bending_stiffness),
         twisting_stiffness=1.0 / cells.total(bounds, lambda s: 1.0 / s.twisting_stiffness),
-        rest_turn=cells.spread(bounds, curvatures),
+        rest_turn=cells.turned(bounds, curvatures),
         mass=cells.total(bounds, lambda s: s.density * s.area),
         volume=cells.total(bounds, lambda s: s.area),
-        radius=np.array([wire.sections[i].radius for i in cells.which]),
+        radius=cells.radius(),
     )

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from magwire.errors import InputError, nonnegative, refuse, whole
+from magwire.wire.make import Make
 from magwire.wire.section import Section
 
 
@@ -105,6 +106,36 @@ class Wire:
             parts.append(section(tip, magnet))
         return cls(sections=tuple(parts), nodes=nodes)
 
+    @classmethod
+    def of(cls, make: Make, length: float, nodes: int, *, magnetized_tip: float = 0.0) -> Wire:
+        """A wire of one make, of which the distal part is magnetised.
+
+        Parameters
+        ----------
+        make
+            What it is made of; a taper goes over the whole length.
+        length
+            Length [m].
+        nodes
+            Number of nodes.
+        magnetized_tip
+            Length of the magnetised distal part [m]; the whole length magnetises all of it.
+
+        Raises
+        ------
+        InputError
+            If a value is out of its range.
+        """
+        tip = nonnegative("Wire", "magnetized_tip", magnetized_tip, "m")
+        whole = make.section(length)
+        if tip > length:
+            raise refuse("Wire", "magnetized_tip", f"at most the length {length:.10g} m", tip, "m")
+        bare = replace(whole, magnetization=(0.0, 0.0, 0.0))
+        if tip in (0.0, length):
+            return cls((whole if tip else bare,), nodes)
+        body, magnet = bare.cut(0.0, length - tip), whole.cut(length - tip, length)
+        return cls((body, replace(magnet, length=tip)), nodes)
+
     @property
     def length(self) -> float:
         """Length L [m]."""
@@ -118,7 +149,7 @@ class Wire:
     @property
     def radius(self) -> float:
         """Largest outer radius [m]."""
-        return max(section.radius for section in self.sections)
+        return max(section.largest_radius for section in self.sections)
 
     @property
     def body(self) -> Section:
@@ -134,3 +165,20 @@ class Wire:
     def moment_per_length(self) -> float:
         """Largest magnetic moment per unit length [A m]; 0 without magnetisation (P-6)."""
         return max(math.hypot(*section.moment_per_length) for section in self.sections)
+
+    @property
+    def magnet(self) -> tuple[float, float]:
+        """Where the most distal magnet begins and ends, from the proximal end [m]; NaN if none.
+
+        Sections that are magnetised and follow each other are one magnet.
+        """
+        begin = end = math.nan
+        place = self.length
+        for section in reversed(self.sections):
+            if math.hypot(*section.moment_per_length) > 0.0:
+                end = place if math.isnan(end) else end
+                begin = max(place - section.length, 0.0)
+            elif not math.isnan(end):
+                break
+            place -= section.length
+        return begin, end

@@ -30,8 +30,8 @@ from magwire.kernels.centreline import (
     SHORTEST,
     climb,
 )
-from magwire.kernels.rim import mouth, mouth_jet, safe_distance
 from magwire.kernels.vectors import combine, dot, norm, scale, sub
+from magwire.kernels.wall.rim import mouth, mouth_jet, safe_distance
 
 FLATTEST = 1e-4  # conditioning guard: smallest |F'|, reached at a centre of curvature
 
@@ -274,6 +274,16 @@ def gap_many(lumen, points, out_g, out_s, out_branch):
         out_g[i] = g
         out_s[i] = s
         out_branch[i] = int32(branch)
+
+
+@kernel
+def hessian_many(lumen, points, out_g, out_h):
+    """Gap of each point and its Hessian, shapes [n, 3], [n] and [n, 6]; see ``gap_jet``."""
+    for i in range(len(points)):
+        g, _, _, _, _, h = gap_jet(lumen, points[i, 0], points[i, 1], points[i, 2])
+        out_g[i] = g
+        for c in range(6):
+            out_h[i, c] = h[c]
 
 
 @kernel

@@ -7,9 +7,10 @@ The gap is 1-Lipschitz, so a point may move by less than its gap. Repeating that
 from __future__ import annotations
 
 from magwire.kernels._jit import kernel
-from magwire.kernels.assembly import clear_of_wall, query
-from magwire.kernels.gap import gap_value
-from magwire.kernels.vectors import combine, norm, row
+from magwire.kernels.vectors import combine, norm, row, sub
+from magwire.kernels.wall.between import clear_edge, margin
+from magwire.kernels.wall.gap import gap_value
+from magwire.kernels.wall.push import clear_of_wall, query
 
 CAUTION = 0.9  # part of the safe distance that one hop uses
 CLOSEST = 0.1  # a step may shrink the clearance to this part of itself, not further
@@ -49,20 +50,48 @@ def travel(lumen, x, dx, offset, known, jet, limit):
 
 
 @kernel
+def edge_part(rod, lumen, wall, q, step, j, r, limit):
+    """Largest part of a step, at most ``limit``, that the points of edge j may take.
+
+    r is the row of its first node.
+    """
+    between = wall.between
+    x, y = row(q, j), row(q, j + 1)
+    dx, dy = (step[r], step[r + 1], step[r + 2]), (step[r + 4], step[r + 5], step[r + 6])
+    farthest = limit * max(norm(dx), norm(dy))
+    length = norm(sub(y, x))
+    if clear_edge(rod, wall, q, j, length, farthest / CAUTION + between.margin):
+        return limit
+    offset = margin(rod, between, j)
+    for k in range(1, between.parts):
+        s = k / between.parts
+        here = combine(1.0 - s, x, s, y)
+        move = combine(1.0 - s, dx, s, dy)
+        known = between.known[j, k]
+        if not clear_of_wall(here, known, limit * norm(move) / CAUTION + offset):
+            limit = travel(lumen, here, move, offset, known, between.jet[j, k], limit)
+    return limit
+
+
+@kernel
 def allowed_part(rod, lumen, wall, q, step, held):
-    """Largest part of a step (rows of the band's layout) that keeps every node inside."""
+    """Largest part of a step (rows of the band's layout) that keeps the wire inside."""
     part = 1.0
     nodes = q.shape[0]
-    dx = (0.0, 0.0, 0.0)
     lead = 4 * (held - 1)
     for i in range(held + 1, nodes):
         r = 4 * i - lead
         x, dx = row(q, i), (step[r], step[r + 1], step[r + 2])
         if not clear_of_wall(x, wall.known[i], part * norm(dx) / CAUTION + rod.offset[i]):
             part = travel(lumen, x, dx, rod.offset[i], wall.known[i], wall.jet[i], part)
+    if wall.between.parts > 1:
+        for j in range(held, nodes - 1):
+            part = edge_part(rod, lumen, wall, q, step, j, 4 * j - lead, part)
     tube = wall.tube
     if tube.stiffness > 0.0 and held < nodes - 1:
-        x = row(q, nodes - 1)
+        i = nodes - 1
+        r = 4 * i - lead
+        x, dx = row(q, i), (step[r], step[r + 1], step[r + 2])
         if not clear_of_wall(x, tube.known[0], part * norm(dx) / CAUTION + tube.offset):
             part = travel(tube.path, x, dx, tube.offset, tube.known[0], tube.jet[0], part)
     return part

@@ -1,0 +1,85 @@
+"""The wall that fits a wire and a lumen (P-11)."""
+
+from __future__ import annotations
+
+from math import ceil, sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from magwire.contact import Barrier
+from magwire.kernels.arrays import Between
+from magwire.lumen import Lumen
+from magwire.wire import Wire
+
+ROOM = 0.03
+"""Activation gap over the free room of the narrowest place: what contact leaves of it at most.
+
+At half of it time steps need more iterations; at twice it forces in cones are off by percents."""
+FIRM = 4.0
+"""Load at which half of the gap is left, in units of what bends the wire along the sharpest bend.
+
+At half of it and at twice it forces differ by less than the room does."""
+LONGEST = 0.25
+"""A wire is taken to be bent to a radius of this part of its length at least."""
+THIN = 0.02
+"""Activation gap of the barrier between the nodes, over that at the nodes."""
+MARGIN = 4.0
+"""Margin of the points between the nodes, in dips of the chords between them: with it the chord
+from a point to a node that touches the wall stays inside, too."""
+FINEST = 64
+"""Parts of an edge at most; the certificate of a record is what tells beyond that."""
+
+
+class Firmness(NamedTuple):
+    """Stiffness K [Pa] and activation gap dhat [m] of a barrier."""
+
+    stiffness: float
+    activation_gap: float
+
+
+def fit(contact: Barrier, wire: Wire, path: Lumen) -> Firmness:
+    """Stiffness and activation gap that were given, or that fit the wire on its path.
+
+    The gap is a part of the room that the wire has where the path is narrowest. To bend a wire of
+    bending stiffness EI to a radius rho all along takes EI/rho^3 per length; the barrier bears a
+    multiple of that with half of its gap left, for the sharpest of the path's bends, of the wire's
+    own rest curvature, and of a bend that the wire's length allows.
+    """
+    if not path.branches:
+        return Firmness(
+            1e3 if contact.stiffness == "auto" else contact.stiffness,
+            1e-4 if contact.activation_gap == "auto" else contact.activation_gap,
+        )
+    gap = contact.activation_gap
+    if gap == "auto":
+        gap = ROOM * (path.narrowest - (wire.radius if contact.wall == "surface" else 0.0))
+    stiffness = contact.stiffness
+    if stiffness == "auto":
+        radius = min(path.branches[0].bend_radius().radius, LONGEST * wire.length)
+        for section in wire.sections:
+            curved = float(np.hypot(*section.rest_curvature))
+            radius = min(radius, 1.0 / curved if curved > 0.0 else radius)
+        stiffest = max(section.bending_stiffness for section in wire.sections)
+        stiffness = FIRM * stiffest / (radius**3 * gap)
+    return Firmness(float(stiffness), float(gap))
+
+
+def divide(firm: Firmness, edge: float, bulge: float, scale: float, edges: int) -> Between:
+    """Barrier between the nodes of edges of a length [m] at a wall of some bulge [1/m].
+
+    In units of the length ``scale`` [m], with the stiffness still in Pa. Where the chord between
+    two nodes cannot come noticeably nearer to the wall than they are, there is none.
+    """
+    gap = THIN * firm.activation_gap
+    parts = ceil(edge * sqrt(0.125 * MARGIN * bulge / gap))
+    parts = min(max(parts, 1), FINEST)
+    chord = edge / parts
+    return Between(
+        parts=parts,
+        stiffness=firm.stiffness * parts / THIN,
+        gap=gap / scale,
+        margin=MARGIN * min(0.125 * bulge * chord**2, 0.5 * chord) / scale,
+        known=np.full((edges, parts, 4), -np.inf),
+        jet=np.zeros((edges, parts, 10)),
+    )

@@ -1,0 +1,48 @@
+"""What the wall and the virtual tube add to energy, gradient and Hessian (P-11, P-13, P-19)."""
+
+from __future__ import annotations
+
+from math import inf
+
+from magwire.kernels._jit import kernel
+from magwire.kernels.scatter import add_diagonal, add_vector
+from magwire.kernels.vectors import row
+from magwire.kernels.wall.between import add_between
+from magwire.kernels.wall.push import press, press_tube
+
+
+@kernel
+def add_walls(rod, lumen, wall, state, held, gradient, band):
+    """Barrier energy of the wire past the last held node (P-11, P-13).
+
+    Returns
+    -------
+    energy
+        +inf if any point is in the wall.
+    nearest
+        Smallest clearance of the points that feel the wall or the virtual tube; +inf if none does.
+    """
+    energy = 0.0
+    nearest = inf
+    tip = state.q.shape[0] - 1
+    for i in range(held + 1, tip + 1):
+        d, value, pushed, block = press(rod, lumen, wall, row(state.q, i), i)
+        if d < inf:
+            nearest = min(nearest, d)
+            energy += value
+            add_vector(gradient, i, 1.0, pushed)
+            if len(band) > 0:
+                add_diagonal(band, 4 * (i - held + 1), block)
+    if wall.between.parts > 1 and held < tip:
+        d, value = add_between(rod, lumen, wall, state, held, gradient, band)
+        nearest = min(nearest, d)
+        energy += value
+    if wall.tube.stiffness > 0.0 and held < tip:
+        d, value, pushed, block = press_tube(rod, wall.tube, row(state.q, tip))
+        if d < inf:
+            nearest = min(nearest, d)
+            energy += value
+            add_vector(gradient, tip, 1.0, pushed)
+            if len(band) > 0:
+                add_diagonal(band, 4 * (tip - held + 1), block)
+    return energy, nearest

@@ -1,0 +1,72 @@
+"""Barrier of one point near the wall, and what is remembered of the gap there (P-8, P-11)."""
+
+from __future__ import annotations
+
+from math import inf
+
+from magwire.kernels._jit import kernel
+from magwire.kernels.blocks import sym_add, sym_outer, sym_scale
+from magwire.kernels.vectors import norm, scale, sub
+from magwire.kernels.wall.barrier import barrier
+from magwire.kernels.wall.gap import gap_jet
+
+
+@kernel
+def query(lumen, x, known, jet):
+    """Ask for the gap at a point and remember it."""
+    g, _, _, safe, n, h = gap_jet(lumen, x[0], x[1], x[2])
+    known[0], known[1], known[2], known[3] = x[0], x[1], x[2], safe
+    jet[0], jet[1], jet[2], jet[3] = g, n[0], n[1], n[2]
+    jet[4], jet[5], jet[6], jet[7], jet[8], jet[9] = h[0], h[1], h[2], h[3], h[4], h[5]
+
+
+@kernel
+def clear_of_wall(x, known, reach):
+    """Whether a point is known to be farther than ``reach`` from the wall.
+
+    ``known`` remembers where the gap was last asked for and how far from there no wall is. It is
+    asked before ``push``, since a call hands over the whole lumen, and most nodes need none.
+    """
+    return norm(sub(x, (known[0], known[1], known[2]))) + reach <= known[3]
+
+
+@kernel
+def push(lumen, x, stiffness, gap, offset, known, jet):
+    """Barrier of a point near the wall (P-8, P-11).
+
+    Returns
+    -------
+    clearance
+        Of the point; +inf if the wall does not act on it.
+    energy, gradient, hessian
+        The energy is +inf if the point is in the wall.
+    """
+    if not (x[0] == known[0] and x[1] == known[1] and x[2] == known[2]):
+        query(lumen, x, known, jet)
+    d, n = jet[0] - offset, (jet[1], jet[2], jet[3])
+    h = (jet[4], jet[5], jet[6], jet[7], jet[8], jet[9])
+    if d >= gap:
+        return inf, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if not d > 0.0:
+        return 0.0, inf, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    value, first, curved = barrier(d, gap)
+    block = sym_add(sym_outer(stiffness * curved, n), sym_scale(stiffness * first, h))
+    return d, stiffness * value, scale(stiffness * first, n), block
+
+
+@kernel
+def press(rod, lumen, wall, x, i):
+    """Barrier of the wall on node i at x; see ``push``."""
+    if clear_of_wall(x, wall.known[i], wall.gap + rod.offset[i]):
+        return inf, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    stiffness = wall.stiffness * rod.cell[i]
+    return push(lumen, x, stiffness, wall.gap, rod.offset[i], wall.known[i], wall.jet[i])
+
+
+@kernel
+def press_tube(rod, tube, x):
+    """Barrier of the virtual tube on the tip at x; see ``push`` (P-19)."""
+    if clear_of_wall(x, tube.known[0], tube.gap + tube.offset):
+        return inf, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    stiffness = tube.stiffness * rod.cell[rod.cell.shape[0] - 1]
+    return push(tube.path, x, stiffness, tube.gap, tube.offset, tube.known[0], tube.jet[0])

@@ -1,0 +1,60 @@
+"""Results of earlier versions, with what they lack added where it can be known."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magwire.results.contract import CONSTANTS, DERIVED, VARIABLES, derive, force_attributes
+from magwire.results.forces import Layout
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    Array = NDArray[np.float64]
+
+WANTED = ("position", "contact_force")
+NEVER_KEPT = ("push_force", "guide_torque")
+
+
+def completed(dataset: xr.Dataset) -> xr.Dataset:
+    """A result with all variables on forces.
+
+    Those along the wire follow from the forces on its nodes; those along the lumen, too, if it is a
+    single tube. What the guide did and where the magnet is were not kept: NaN.
+    """
+    if "wall_force" in dataset or not all(name in dataset for name in WANTED):
+        return dataset
+    layout = Layout(
+        length=float(np.asarray(dataset.attrs["length_scale"]).reshape(())),
+        nodes=dataset.sizes["node"],
+        magnet=(float("nan"), float("nan")),
+        way=_way(dataset),
+    )
+    columns = {name: np.asarray(dataset[name].values, dtype=np.float64) for name in WANTED}
+    added = derive(columns, layout)
+    if len(layout.arc) == 0:
+        del added["lumen_force"]
+    made: dict[str, Any] = {
+        name: (DERIVED[name].dims, values, _notes(DERIVED[name])) for name, values in added.items()
+    }
+    for name in NEVER_KEPT:
+        unknown = np.full(dataset.sizes["time"], np.nan)
+        made[name] = (VARIABLES[name].dims, unknown, _notes(VARIABLES[name]))
+    if len(layout.arc):
+        made["arc"] = (("arc",), layout.arc, _notes(CONSTANTS["arc"]))
+        made["way"] = (("arc", "xyz"), layout.point(layout.arc)[:, :3], _notes(CONSTANTS["way"]))
+    return dataset.assign(made).assign_attrs(force_attributes(layout))
+
+
+def _way(dataset: xr.Dataset) -> Array:
+    """The centreline of a lumen without branches, shape (q, 4) [m]; no rows of any other."""
+    if "centreline" not in dataset or np.any(dataset["lumen_branch"].values != 0):
+        return np.zeros((0, 4))
+    return np.column_stack([dataset["centreline"].values, dataset["lumen_radius"].values])
+
+
+def _notes(variable: Any) -> dict[str, str]:
+    return {"units": variable.units, "long_name": variable.long_name}
