@@ -88,9 +88,7 @@ def passive(
     inertia: bool = True,
 ) -> Passive:
     """The paper's wire pushed through a lumen without a field, recorded ``every`` part of L."""
-    system = System(
-        paper_wire(nodes), lumen(name), Barrier(1e3, 1e-4, wall="centreline"), release=release
-    )  # type: ignore[arg-type]
+    system = System(paper_wire(nodes), lumen(name), Barrier(1e3, 1e-4, wall="centreline"), release=release)  # type: ignore[arg-type]
     course = Feed(0.01 * L, push * L)
     march = March(system, UniformField(), course, time_step=time_step, inertia=inertia)
     records = list(march.records(max(1, round(100 * every / time_step))))

@@ -125,9 +125,7 @@ def set_up(seed: int) -> tuple[str, mw.Simulation, mw.Feed, mw.Prescribed | None
         knots = np.linspace(0.0, way, 6)
         navigator = mw.Prescribed(mw.Schedule(knots, rng.normal(0.0, 0.03, (6, 3))))
     elif field == "jumps":
-        knots = np.sort(
-            np.concatenate([at + np.array([-1e-9, 1e-9]) for at in way * rng.uniform(0.1, 0.9, 4)])
-        )
+        knots = np.sort(np.concatenate([at + np.array([-1e-9, 1e-9]) for at in way * rng.uniform(0.1, 0.9, 4)]))
         values = rng.normal(size=(5, 3))
         values *= 0.1 / np.linalg.norm(values, axis=1)[:, None]
         values[2], values[4] = -values[1], -values[3]
@@ -152,9 +150,7 @@ def gaps(where: mw.Lumen, points: Array) -> Array:
         count = int(np.clip(40.0 * branch.length / branch.radius.min(), 400, 20_000))
         s = np.linspace(0.0, branch.length, count)
         at, along = branch.curve.at(s), branch.curve.at(s, 1)
-        for block in np.array_split(
-            np.arange(len(points)), max(1, len(points) * count // 4_000_000)
-        ):
+        for block in np.array_split(np.arange(len(points)), max(1, len(points) * count // 4_000_000)):
             away = np.linalg.norm(points[block, None] - at[None, :, :3], axis=2)
             depth = at[None, :, 3] - away
             k = np.argmax(depth, axis=1)
@@ -163,9 +159,7 @@ def gaps(where: mw.Lumen, points: Array) -> Array:
             low, mid, high = (depth[rows, inner + o] for o in (-1, 0, 1))
             bent = np.maximum(2.0 * mid - low - high, 1e-300)
             peak = mid + np.clip((high - low) ** 2 / (8.0 * bent), 0.0, np.abs(high - low))
-            value = np.where(
-                (k > 0) & (k < count - 1), np.maximum(peak, depth[rows, k]), depth[rows, k]
-            )
+            value = np.where((k > 0) & (k < count - 1), np.maximum(peak, depth[rows, k]), depth[rows, k])
             for end, sign in ((0, -1.0), (count - 1, 1.0)):
                 past = sign * np.einsum("ij,j->i", points[block] - at[end, :3], along[end, :3])
                 value = np.where((k == end) & (past > -0.01 * at[end, 3]), np.inf, value)
@@ -183,16 +177,12 @@ def deepest(simulation: mw.Simulation, result: mw.Result) -> float:
     worst = 0.0
     for position in result.position[:: max(1, len(result.position) // 12)]:
         points = (position[:-1, None] * (1.0 - s) + position[1:, None] * s).reshape(-1, 3)
-        near = (
-            where.gap(points) < thick + 0.3 * scale
-        )  # only a filter: what is far is not looked at
+        near = where.gap(points) < thick + 0.3 * scale  # only a filter: what is far is not looked at
         if not near.any():
             continue
         depth = gaps(where, points[near]) - thick
         if blended > 0.0:  # rounded carinas lie outside the union of balls
-            depth = np.maximum(
-                depth, np.minimum(where.gap(points[near]) - thick, depth + blended / 3.0)
-            )
+            depth = np.maximum(depth, np.minimum(where.gap(points[near]) - thick, depth + blended / 3.0))
         worst = max(worst, float(-depth.min()))
     return worst / scale if worst > ROUND_OFF * scale else 0.0
 

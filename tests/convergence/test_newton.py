@@ -45,9 +45,7 @@ def spatial() -> tuple[Simulation, float, Array, Array]:
 
 
 def in_contact() -> tuple[Simulation, float, Array, Array]:
-    sim = Simulation(
-        paper_wire(), lumen("half-circle"), contact=Barrier(1e3, 1e-4, wall="centreline")
-    )
+    sim = Simulation(paper_wire(), lumen("half-circle"), contact=Barrier(1e3, 1e-4, wall="centreline"))
     return sim, 0.0404, np.array([1e-3, 5e-3, 2e-3]), np.array([0.0, 0.01, 0.0])
 
 

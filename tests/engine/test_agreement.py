@@ -26,9 +26,7 @@ def test_quasi_static_march_and_slow_dynamics(name: str) -> None:
 @pytest.mark.parametrize("push", [0.2, 0.3, 0.5, 0.7])
 def test_equilibrium_and_slow_dynamics(push: float) -> None:
     run = passive("half-circle")
-    sim = Simulation(
-        paper_wire(), lumen("half-circle"), contact=Barrier(1e3, 1e-4, wall="centreline")
-    )
+    sim = Simulation(paper_wire(), lumen("half-circle"), contact=Barrier(1e3, 1e-4, wall="centreline"))
     i = int(np.abs(run.X - push).argmin())
     state = sim.equilibrium(run.X[i] * L)
     assert state.stable

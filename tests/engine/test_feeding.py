@@ -63,9 +63,7 @@ def march(
     release: Release = "sliding",
     inertia: bool = True,
 ) -> tuple[March, list[Record]]:
-    system = System(
-        paper_wire(), lumen(name), Barrier(1e3, 1e-4, wall="centreline"), release=release
-    )
+    system = System(paper_wire(), lumen(name), Barrier(1e3, 1e-4, wall="centreline"), release=release)
     step = STEP if inertia else 5.0 * STEP
     run = March(system, field, feed, time_step=step, inertia=inertia)
     records = list(run.records(round(0.5 / step)))

@@ -13,9 +13,7 @@ from wires import L, flux, free, lumen, magnet, paper_wire
 
 
 def half_circle() -> Simulation:
-    return Simulation(
-        paper_wire(), lumen("half-circle"), contact=Barrier(1e3, 1e-4, wall="centreline")
-    )
+    return Simulation(paper_wire(), lumen("half-circle"), contact=Barrier(1e3, 1e-4, wall="centreline"))
 
 
 @pytest.mark.parametrize("feed", [0.0, 0.0007, 0.02, 0.0404, 0.072])
@@ -104,9 +102,9 @@ def test_a_lumen_far_from_the_origin() -> None:
     near = Lumen.through(points, radius)
     for field in ([0.0, 0.0, 0.0], [1e-3, 5e-3, 2e-3]):
         found = [
-            Simulation(
-                paper_wire(), where, contact=Barrier(1e3, 1e-4, wall="centreline")
-            ).equilibrium(0.04, field)
+            Simulation(paper_wire(), where, contact=Barrier(1e3, 1e-4, wall="centreline")).equilibrium(
+                0.04, field
+            )
             for where in (far, near)
         ]
         np.testing.assert_allclose(found[0].positions - away, found[1].positions, atol=1e-7 * L)

@@ -146,9 +146,7 @@ def test_a_longer_wire_is_steered_like_a_shorter_one() -> None:
     """What lies far behind the tip, still on the guide, is no reason for another field."""
     course = []
     for wire in (paper_wire(), fitted(paper_wire(), 0.22)):
-        run = Simulation(
-            wire, Lumen.half_circle(0.025, 3e-3), contact=Barrier(1e3, 1e-4, wall="centreline")
-        )
+        run = Simulation(wire, Lumen.half_circle(0.025, 3e-3), contact=Barrier(1e3, 1e-4, wall="centreline"))
         navigator = StableNavigator(run.system, plan_every=5e-4)
         course.append(navigator.plan(observation(0.0), 0.03))
     short, long = (schedule.at(np.arange(0.005, 0.03, 1e-3)) for schedule in course)

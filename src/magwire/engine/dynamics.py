@@ -244,7 +244,9 @@ class March:
         place_held(system.rod, system.guide, state, 0, mouth.held, feed, twist)
         nodes = len(state.q)
         forces, clearance = np.zeros((nodes, 3)), np.zeros(nodes)
-        middle, along, stable = observe(self._model(), state, mouth, self._work, forces, clearance)
+        middle, along, stable = observe(
+            self._model(), state, mouth, self._work, forces, clearance
+        )
         push, torque = reaction(system, mouth, self._work.gradient)
         clearance[: mouth.held + 1] = np.nan
         if mouth.held < nodes - 1:

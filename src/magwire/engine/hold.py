@@ -20,8 +20,9 @@ from magwire.engine.uneven import Settled
 from magwire.errors import InputError, array, finite
 from magwire.kernels.arrays import Field, Motion, Mouth, State, Work
 from magwire.kernels.assembly import FIRST, assemble
-from magwire.kernels.band import factor, solve
 from magwire.kernels.frames import update_frames
+from magwire.kernels.band import factor, solve
+from magwire.kernels.wall.collision import allowed_part
 from magwire.kernels.newton import (
     ARMIJO,
     HALVINGS,
@@ -32,7 +33,6 @@ from magwire.kernels.newton import (
     copy_state,
     take_step,
 )
-from magwire.kernels.wall.collision import allowed_part
 
 Array = NDArray[np.float64]
 

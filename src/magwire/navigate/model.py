@@ -12,11 +12,11 @@ from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.errors import InputError
 from magwire.kernels.arrays import Field, Motion, Mouth, State
+from magwire.kernels.wall.gap import gap_value
 from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.linearise import Linear, linearise, respond, tube_force
 from magwire.kernels.march import Plan, Tally, march
 from magwire.kernels.newton import newton
-from magwire.kernels.wall.gap import gap_value
 from magwire.lumen import Lumen
 from magwire.navigate.schedule import Schedule
 

@@ -30,8 +30,8 @@ from magwire.kernels.centreline import (
     SHORTEST,
     climb,
 )
-from magwire.kernels.vectors import combine, dot, norm, scale, sub
 from magwire.kernels.wall.rim import mouth, mouth_jet, safe_distance
+from magwire.kernels.vectors import combine, dot, norm, scale, sub
 
 FLATTEST = 1e-4  # conditioning guard: smallest |F'|, reached at a centre of curvature
 

@@ -67,9 +67,8 @@ def slide(rod, lumen, wall, q, step, held, part, way):
         for k in range(1, between.parts):
             s = k / between.parts
             here = combine(1.0 - s, x, s, y)
-            move = combine(
-                1.0 - s, (way[r], way[r + 1], way[r + 2]), s, (way[r + 4], way[r + 5], way[r + 6])
-            )
+            move = combine(1.0 - s, (way[r], way[r + 1], way[r + 2]),
+                           s, (way[r + 4], way[r + 5], way[r + 6]))
             known = between.known[j, k]
             if not clear_of_wall(here, known, norm(move) + offset):
                 bent = push_back(lumen, here, move, offset, known, between.jet[j, k])
