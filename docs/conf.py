@@ -6,6 +6,7 @@ import re
 from importlib.metadata import version as installed_version
 
 from sphinx.application import Sphinx
+from sphinx.util.inspect import TypeAliasForwardRef
 
 project = "magwire"
 author = "The magwire authors"
@@ -31,6 +32,9 @@ myst_heading_anchors = 3
 
 autosummary_generate = True
 autodoc_typehints = "signature"
+# As the sources have them, not what numpy makes of them; in unions, too.
+TypeAliasForwardRef.__repr__ = lambda alias: alias.name
+autodoc_type_aliases = {name: name for name in ("ArrayLike", "Array", "Indices")}
 autodoc_member_order = "bysource"
 autodoc_default_options = {"members": True, "show-inheritance": False}
 numpydoc_class_members_toctree = False

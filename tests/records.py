@@ -68,6 +68,7 @@ def records(run: RunInfo, count: int = 73, *, step: float = 1e-3) -> Iterator[Re
             contact_force=wall,
             clearance=clearance,
             clearance_midpoint=float(np.nanmin(clearance)),
+            clearance_along=float(np.nanmin(clearance)),
             tip_force=force,
             tip_offset=min(3e-3, feed / 4),
             push_force=1.5 * force,

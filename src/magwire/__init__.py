@@ -36,8 +36,8 @@ if TYPE_CHECKING:
     from magwire.scenario import load as load_scenario
     from magwire.scenario import names as scenario_names
     from magwire.simulation import Simulation as Simulation
-    from magwire.wire import Make as Make
     from magwire.vessel import Vessel as Vessel
+    from magwire.wire import Make as Make
     from magwire.wire import Section as Section
     from magwire.wire import Wire as Wire
 

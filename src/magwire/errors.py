@@ -13,6 +13,9 @@ from numbers import Integral, Real
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+LONGEST = 200
+"""Characters of a value that messages show."""
+
 
 class MagwireError(Exception):
     """Any error that magwire raises on purpose."""
@@ -59,14 +62,23 @@ class ConvergenceError(MagwireError):
         super().__init__(message)
 
 
+def shortened(value: object, *, quoted: bool = False) -> str:
+    """A value as text, cut where it gets too long for a message."""
+    try:
+        text = repr(value) if quoted else str(value)
+    except (ValueError, RecursionError):  # an integer of thousands of digits, a list that is deep
+        return f"a very long {type(value).__name__}"
+    return text if len(text) <= LONGEST else f"{text[: LONGEST // 2]} ... {text[-LONGEST // 4 :]}"
+
+
 def received(value: object, unit: str = "") -> str:
     """A value as messages show it: short, with its unit."""
     if isinstance(value, bool) or not isinstance(value, (Real, np.ndarray)):
-        return f"{value!r}"
+        return shortened(value, quoted=True)
     if isinstance(value, np.ndarray):
         text = np.array2string(value, precision=6, threshold=8, separator=", ").replace("\n", "")
     else:
-        text = f"{value:.10g}" if isinstance(value, float) else str(value)
+        text = f"{value:.10g}" if isinstance(value, float) else shortened(value)
     return f"{text} {unit}".rstrip()
 
 
@@ -81,7 +93,10 @@ def finite(owner: str, name: str, value: object, unit: str = "") -> float:
     """Return ``value`` as a float; refuse what is no number, NaN and infinity."""
     if isinstance(value, bool) or not isinstance(value, Real):
         raise refuse(owner, name, "a number", value)
-    number = float(value)
+    try:
+        number = float(value)
+    except OverflowError:  # an integer larger than any float
+        number = math.inf
     if not math.isfinite(number):
         raise refuse(owner, name, "a finite number", number, unit)
     return number

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from magwire.errors import MagwireError
+from magwire.files import write_whole
 from magwire.units import DIMENSIONS, parse, show
 from magwire.vessel import Source, Spot, Vessel, survey
 from magwire.vessel.files import Drawing, Line, load, netcdf, vtp
@@ -137,7 +138,7 @@ def convert(vessel: Vessel, target: Spot | None, out: Path, *, force: bool) -> N
         elif out.suffix == ".nc":
             netcdf.write(out, lines, ends)
         else:
-            out.write_text(_toml(vessel, str(lumen.target)), encoding="utf-8")
+            write_whole(out, _toml(vessel, str(lumen.target)))
     except OSError as error:
         reason = (error.strerror or "unknown reason").lower()
         raise LumenCommandError(f"Output file '{out}' cannot be written: {reason}.") from None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from magwire.contact import Barrier
 from magwire.errors import InputError, one_of, positive
+from magwire.files import write_whole
 from magwire.lumen import Lumen
 from magwire.lumen.names import meant
 from magwire.lumen_commands import spot
@@ -204,12 +206,13 @@ def save(lumen: Lumen, prospects: Sequence[Prospect], folder: Path) -> list[Path
     from magwire.plot import prospects as maps
 
     rows = [_row(p) for p in prospects]
-    with (folder / TABLES[0]).open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow([f"{n} [{unit}]" if unit else n for n, unit in COLUMNS.items()])
-        writer.writerows(row.values() for row in rows)
+    text = io.StringIO(newline="")
+    writer = csv.writer(text)
+    writer.writerow([f"{n} [{unit}]" if unit else n for n, unit in COLUMNS.items()])
+    writer.writerows(row.values() for row in rows)
+    write_whole(folder / TABLES[0], text.getvalue())
     found = {"units": COLUMNS, "outlets": [_finite(row) for row in rows]}
-    (folder / TABLES[1]).write_text(json.dumps(found, indent=2) + "\n", encoding="utf-8")
+    write_whole(folder / TABLES[1], json.dumps(found, indent=2) + "\n")
     paths = lumen.paths or {"outlet": lumen.branches[0]}
     maps.save(
         {name: path.centreline() for name, path in paths.items()},

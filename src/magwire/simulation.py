@@ -13,12 +13,12 @@ from magwire.contact import Barrier
 from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
 from magwire.engine.hold import Hold
-from magwire.engine.interrupt import held_back_interrupt
 from magwire.engine.record import Motion, Record, RunInfo
 from magwire.engine.statics import Equilibrium, find_equilibrium
 from magwire.engine.system import Release, System
 from magwire.errors import InputError, array, one_of, positive
 from magwire.field import FieldSource, UniformField
+from magwire.interrupt import held_back_interrupt
 from magwire.lumen import Lumen
 from magwire.navigate import NavigationError, Navigator, Steering
 from magwire.navigate.steering import steered_records

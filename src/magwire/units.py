@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 
-from magwire.errors import InputError
+from magwire.errors import InputError, shortened
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
 _NOT_A_NUMBER = re.compile(r"\s*([+-]?(?:nan|inf|infinity))\b\s*(.*?)\s*", re.IGNORECASE)
@@ -189,7 +189,7 @@ def parse(value: object, dimension: str, name: str = "") -> float:
     kind = DIMENSIONS[dimension]
     what = f"Input {name or 'value'}"
     plain = isinstance(value, (int, float)) and not isinstance(value, bool)
-    text = str(value)
+    text = shortened(value)
     if not plain and not isinstance(value, str):
         raise InputError(f"{what} must be text such as '{kind.example}'; received {value!r}.")
     cleaned = text.translate(_SPELLINGS)
@@ -207,7 +207,10 @@ def parse(value: object, dimension: str, name: str = "") -> float:
     if unit not in kind.units:
         raise InputError(_wrong_unit(what, kind, unit, text))
     # Decimal arithmetic: "0.6 mm" is 0.0006 exactly, not 0.0006 and some rounding.
-    number = float(Decimal(match[1]) * _exact(kind.units[unit]))
+    try:
+        number = float(Decimal(match[1]) * _exact(kind.units[unit]))
+    except ArithmeticError:  # an exponent that is beyond even a decimal number's
+        number = 0.0 if "e-" in match[1].lower() else math.inf
     if not math.isfinite(number):
         raise InputError(f"{what} must be a finite number; received {text}.")
     return number

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import json
+import subprocess
+import sys
 import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +29,7 @@ def scenarios() -> list[mw.Scenario]:
 def done(tmp_path_factory: pytest.TempPathFactory) -> tuple[list[Outcome], list[Outcome]]:
     """Outcomes of the three scenarios by two workers, the second one without a place to write."""
     out = tmp_path_factory.mktemp("many")
-    (out / ".0001.nc.draft").mkdir()
+    (out / ".0001.nc.lock").mkdir()
     seen: list[Outcome] = []
     return mw.run_many(scenarios(), workers=2, out=out, watch=seen.append), seen
 
@@ -72,6 +76,24 @@ def test_worker_that_dies_is_replaced() -> None:
     finally:
         worker.stop()
         worker.close()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="sends a signal to itself")
+def test_worker_whose_caller_is_gone_ends_its_run(tmp_path: Path) -> None:
+    file = tmp_path / "result.nc"
+    long = mw.load_scenario("half-circle", ("solver.time_step=0.2 ms", "navigate.method=none"))
+    order = json.dumps({"scenario": long.to_toml(), "file": str(file)}) + "\n"
+    command = [sys.executable, "-m", "magwire.many.worker"]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdin is not None
+        process.stdin.write(order.encode())
+        process.stdin.flush()
+        until = time.monotonic() + 240.0
+        while time.monotonic() < until and not (file.exists() and mw.Result.load(file).time.size):
+            time.sleep(0.05)
+        process.stdin.close()
+        process.wait(timeout=120)
+    assert mw.Result.load(file).status == "interrupted"
 
 
 def test_nothing_to_do() -> None:

@@ -108,7 +108,6 @@ def test_all_faults_of_the_table_at_once(tmp_path: Path) -> None:
         "is",
         'sweep.ranges."lumen.radius"',
         'sweep.ranges."wire.radius"',
-        "sweep.samples",
         "sweep.seed",
     ]
 
@@ -127,6 +126,46 @@ def test_all_faults_of_the_runs_at_once(tmp_path: Path) -> None:
     assert found[0] == "Input wire.radus is not a key of [wire]; did you mean 'radius'?"
     assert found[1] == "Run 0: Input lumen.radius must be positive; received 0.0 mm."
     assert [fault[:6] for fault in found[2:]] == ["Run 1:", "Run 2:"]
+
+
+def test_sobol_rounds_up_to_a_power_of_two(tmp_path: Path) -> None:
+    file = tmp_path / "sobol.toml"
+    table = '[sweep]\nscenario = "half-circle"\nmethod = "sobol"\nsamples = {}\n[sweep.ranges]\n'
+    table += '"lumen.radius" = {{ from = "2 mm", to = "3 mm" }}\n'
+    file.write_text(table.format(50))
+    assert len(read(file).values) == 64
+    assert read(file).note == "Method 'sobol' needs a power of two: 64 runs in place of 50."
+    file.write_text(table.format(8))
+    assert read(file).note == ""
+
+
+def test_ranges_may_say_how_a_file_is_read(tmp_path: Path) -> None:
+    from magwire.scenario import load as load_scenario
+
+    (tmp_path / "vessel").mkdir()
+    rows = ["x,y,z,radius", *(f"{x},0,0,3" for x in range(0, 101, 5))]
+    (tmp_path / "vessel" / "tube.csv").write_text("\n".join(rows))
+    wire = load_scenario("straight").to_toml().split("[lumen]")[0]
+    lumen = '[lumen]\nfile = "tube.csv"\nunits = "mm"\n[feed]\nspeed = "1 mm/s"\n'
+    (tmp_path / "vessel" / "tube.toml").write_text(wire + lumen)
+    file = tmp_path / "scales.toml"
+    table = '[sweep]\nscenario = "vessel/tube.toml"\n[sweep.ranges]\n"lumen.scale" = [1.0, 0.5]\n'
+    file.write_text(table)
+    scenarios = read(file).scenarios
+    assert [s.lumen.narrowest for s in scenarios] == pytest.approx([3e-3, 1.5e-3])
+    written_out = tmp_path / "elsewhere.toml"
+    written_out.write_text(read(file).base + '[sweep.ranges]\n"lumen.scale" = [0.5]\n')
+    assert read(written_out).scenarios[0].lumen.narrowest == pytest.approx(1.5e-3)
+
+
+def test_only_complete_runs_count_as_clear(tmp_path: Path) -> None:
+    from magwire.many.sweeping import lines
+    from magwire.many.table import blank
+
+    table = blank(read(written(tmp_path)))
+    table["contact_free"].values[:] = [1.0, 1.0, 0.0]
+    table["status"].values[:] = ["complete", "not converged", "complete"]
+    assert any("in 1 of 2 complete runs" in line for line in lines(table))
 
 
 def test_scenario_may_be_in_the_file(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import magwire as mw
-from magwire.vessel.synthetic import carotid_bifurcation
+from magwire.lumen.synthetic import carotid_bifurcation
 
 
 def wire(radius: float, magnet: float, edge: float) -> mw.Wire:

@@ -11,6 +11,7 @@ from cyclopts import App, CycloptsError
 import magwire
 from magwire.cli.benchmarks import bench
 from magwire.cli.evidence import reproduce, verify
+from magwire.cli.health import doctor
 from magwire.cli.outlets import plan_outlets
 from magwire.cli.pictures import animate, plot
 from magwire.cli.running import replay, run
@@ -19,6 +20,7 @@ from magwire.cli.sweeps import sweep
 from magwire.cli.vessels import lumen
 from magwire.cli.words import INTERRUPTED, complain
 from magwire.errors import MagwireError
+from magwire.interrupt import Terminated, end_in_order
 
 __all__ = ["app", "main"]
 
@@ -28,12 +30,15 @@ it again and again takes an eighth of the time to the first step."""
 
 app = App(
     name="magwire",
-    help="Simulate magnetic soft continuum robots in lumens.",
+    help="Simulate magnetic soft continuum robots in lumens.\n\n"
+    "To report a fault: send the output of 'magwire doctor', the command and all that it printed, "
+    "and scenario.toml, to where you got magwire from.",
     version=lambda: magwire.__version__,
     version_flags=["--version"],
     result_action="return_value",
+    suppress_keyboard_interrupt=False,  # what is said then is said below
 )
-for command in (animate, bench, lumen, plot, replay, reproduce, run, schema, sweep, verify):
+for command in (animate, bench, doctor, lumen, plot, replay, reproduce, run, schema, sweep, verify):
     app.command(command)
 app.command(list_scenarios, name="list")
 app.command(plan_outlets, name="plan")
@@ -54,15 +59,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     words = sys.argv[1:] if arguments is None else list(arguments)
     gc.set_threshold(RESTING)
+    end_in_order()
     try:
         status = app(words, exit_on_error=False, print_error=False)
     except KeyboardInterrupt:
         complain("Interrupted.")
         return INTERRUPTED
+    except Terminated as told:
+        complain(str(told))
+        return told.status
     except (MagwireError, CycloptsError) as error:
         complain(str(error))
         return 1
     except BrokenPipeError:  # a reader such as head has seen enough
         sys.stderr.close()
+        return 1
+    except OSError as error:  # a disk that is full, or gone, wherever it is noticed
+        where = f" '{error.filename}'" if error.filename else ""
+        complain(f"A file{where} cannot be used: {(error.strerror or str(error)).lower()}.")
         return 1
     return status if isinstance(status, int) else 0

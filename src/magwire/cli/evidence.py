@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from pathlib import Path
 
-from magwire.cli.folders import check_free, writing_to
+from magwire.cli.folders import occupied, writing_to
 from magwire.cli.options import Flag, Names
 from magwire.cli.words import complain, say, say_if_compiling
 
@@ -27,9 +28,9 @@ def reproduce(*, only: Names = None, out: Path | None = None, force: Flag = Fals
 
     names = report.chosen(only)
     folder = out or Path("reproduce")
-    check_free(folder, force=force)
     say_if_compiling()
-    with writing_to(folder), pieces(len(report.asks(names)) + len(names)) as begin:
+    total = len(report.asks(names)) + len(names)
+    with occupied(folder, force=force), writing_to(folder), pieces(total) as begin:
         chapters = report.reproduce(folder, names, watch=begin)
     for chapter in chapters:
         for text in chapter.broken:
@@ -60,14 +61,12 @@ def verify(
     """
     from magwire.verify import report
 
-    if out is not None:  # better said before the work than after it
-        check_free(out, force=force)
-        with writing_to(out):
-            pass
-    say_if_compiling()
-    result = report.show(only or tuple(report.GROUPS), full=full)
-    if out is not None:
-        with writing_to(out):
-            for path in report.save(result, out):
-                say(str(path))
+    claim = nullcontext() if out is None else occupied(out, force=force)  # better before the work
+    with claim:
+        say_if_compiling()
+        result = report.show(only or tuple(report.GROUPS), full=full)
+        if out is not None:
+            with writing_to(out):
+                for path in report.save(result, out):
+                    say(str(path))
     return 0 if result.passed else 1

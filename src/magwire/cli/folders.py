@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from magwire.cli.words import CommandError
+from magwire.files import claimed, is_left_over
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -20,11 +21,22 @@ def check_free(folder: Path, *, force: bool) -> None:
     """Refuse a folder that holds something, unless it may be overwritten."""
     if folder.exists() and not folder.is_dir():
         raise CommandError(f"Output folder '{folder}' is a file; expected a folder or a new name.")
-    if folder.is_dir() and any(folder.iterdir()) and not force:
+    if not force and folder.is_dir() and not all(map(is_left_over, folder.iterdir())):
         raise CommandError(
             f"Output folder '{folder}' exists already; use --force to overwrite it, "
             "or --out for another."
         )
+
+
+@contextmanager
+def occupied(folder: Path, *, force: bool) -> Iterator[None]:
+    """Make a folder that this process alone writes its output to, free of what dead ones left."""
+    check_free(folder, force=force)
+    with ExitStack() as stack:
+        with writing_to(folder):
+            stack.enter_context(claimed(folder, "Output folder"))
+        check_free(folder, force=force)  # another one may just have ended
+        yield
 
 
 @contextmanager

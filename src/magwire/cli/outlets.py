@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from magwire.cli.folders import check_free, writing_to
+from magwire.cli.folders import occupied, writing_to
 from magwire.cli.options import Flag
 from magwire.cli.reading import USUAL, Points, Reading, source_of
 from magwire.cli.words import CommandError, say, say_if_compiling
@@ -63,8 +64,7 @@ def plan_outlets(
         "magnetization": magnetization,
         "magnet": magnetized_tip,
     }
-    if out is not None:  # better said before the work than after it
-        check_free(out, force=force)
+    claim = nullcontext() if out is None else occupied(out, force=force)  # better before the work
     say_if_compiling()
     if len(sources) == 1 and (sources[0] in names() or Path(sources[0]).suffix == ".toml"):
         reading.refuse_any()
@@ -73,7 +73,8 @@ def plan_outlets(
     else:
         source = source_of(tuple(map(Path, sources)))
         work = commands.of_file(source, reading.units, words, reading.options())
-    _carry_out(work, commands.outlets(work, target), out)
+    with claim:
+        _carry_out(work, commands.outlets(work, target), out)
     return 0
 
 

@@ -12,15 +12,18 @@ from magwire.cli.folders import (
     SCENARIO,
     SCHEDULE,
     check_free,
+    occupied,
     writing_to,
 )
 from magwire.cli.options import Flag, Overrides
 from magwire.cli.words import INTERRUPTED, CommandError, complain, say, say_if_compiling
+from magwire.files import write_whole
 
 if TYPE_CHECKING:
     from magwire.results import Result
     from magwire.scenario import Scenario
     from magwire.scenario.job import Job
+    from magwire.wire import Wire
 
 
 def run(
@@ -101,16 +104,22 @@ def carry_out(
 ) -> int:
     """Run a scenario and leave all that comes of it in a folder; the exit status."""
     check_free(folder, force=force)
-    job = described.build()
+    job = described.build()  # all faults before anything is written
     for note in described.notes:
         say(note)
-    with writing_to(folder):
-        for name in (RESULT, PASSIVE, SCHEDULE, *FIGURES):
-            (folder / name).unlink(missing_ok=True)
-        (folder / SCENARIO).write_text(described.to_toml(), encoding="utf-8")
-    results = [simulate(job, folder / RESULT)]
-    if compare and results[0] is not None and results[0].status != "interrupted":
-        results.append(simulate(described.unsteered().build(), folder / PASSIVE))
+    with occupied(folder, force=force):
+        with writing_to(folder):
+            for name in (RESULT, PASSIVE, SCHEDULE, *FIGURES):
+                (folder / name).unlink(missing_ok=True)
+            write_whole(folder / SCENARIO, described.to_toml())
+        results = [simulate(job, folder / RESULT)]
+        if compare and results[0] is not None and results[0].status != "interrupted":
+            results.append(simulate(described.unsteered().build(), folder / PASSIVE))
+        return _report(described, job.simulation.system.wire, folder, results)
+
+
+def _report(described: Scenario, wire: Wire, folder: Path, results: list[Result | None]) -> int:
+    """Say how the runs ended and draw them; the exit status."""
     result, *others = results
     if result is None:
         complain("The run was interrupted before its first record.")
@@ -121,20 +130,26 @@ def carry_out(
 
     for line in summary.lines(result, steered=steered, passive=passive):
         say(line)
-    for line in summary.wire_lines(job.simulation.system.wire):
+    for line in summary.wire_lines(wire):
         say(line)
-    with writing_to(folder):
-        from magwire import plot as pictures
-        from magwire.scenario import schedule_of, write_schedule
-
-        pictures.save(result.dataset, folder, passive=passive.dataset if passive else None)
-        if steered and result.time.size:
-            write_schedule(schedule_of(result), folder / SCHEDULE)
     if passive is not None:
         for line in summary.gains(result, passive):
             say(line)
+    if steered and result.time.size:
+        from magwire.scenario import schedule_of, write_schedule
+
+        with writing_to(folder):
+            write_schedule(schedule_of(result), folder / SCHEDULE)
+    status = max(outcome(run) for run in results)
+    if status == INTERRUPTED:  # whoever interrupts does not want to wait
+        complain(f"No figure is drawn; 'magwire plot {folder}' draws what there is.")
+    else:
+        from magwire import plot as pictures
+
+        with writing_to(folder):
+            pictures.save(result.dataset, folder, passive=passive.dataset if passive else None)
     say(f"{'written to':{summary.COLUMN}}{folder}")
-    return max(outcome(run) for run in results)
+    return status
 
 
 def outcome(result: Result | None) -> int:

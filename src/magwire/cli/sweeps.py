@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from magwire.cli.folders import check_free, writing_to
+from magwire.cli.folders import occupied, writing_to
 from magwire.cli.options import Flag
 from magwire.cli.words import INTERRUPTED, complain, say
 
@@ -46,14 +46,14 @@ def sweep(
     described = sweeps.read(file)
     runs = len(described.scenarios)  # all faults of the file before anything is written
     folder = out or Path(f"{file.stem}-sweep")
-    again = sweeping.begun(folder, described)
-    if force:
-        (folder / sweeping.TABLE).unlink(missing_ok=True)
-    elif again:
+    if described.note:
+        complain(described.note)
+    again = not force and sweeping.begun(folder, described)
+    if again:
         complain(f"Taking up the sweep in '{folder}'.")
-    else:
-        check_free(folder, force=False)
-    with writing_to(folder):
+    with occupied(folder, force=force or again), writing_to(folder):
+        if force:
+            (folder / sweeping.TABLE).unlink(missing_ok=True)
         try:
             table = sweeping.carry_out(described, folder, workers=count, keep=keep, cluster=cluster)
         except KeyboardInterrupt:

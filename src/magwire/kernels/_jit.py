@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import stat
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
@@ -14,40 +15,75 @@ import numba
 Function = TypeVar("Function", bound=Callable[..., object])
 
 
-def _cache_folder() -> Path:
+def _cache_folder() -> Path | None:
     """Folder for the machine code of exactly these kernel sources and this numba.
 
     numba looks only at the file of a kernel, not at the kernels it calls: an edit in an imported
-    file would leave stale machine code. The folder's name therefore carries a hash of them all.
+    file would leave stale machine code. The folder's name therefore carries a hash of them all,
+    also inside the folder that a site has chosen for numba.
     """
     digest = hashlib.sha256(numba.__version__.encode())
     folder = Path(__file__).parent
     for source in sorted(folder.rglob("*.py")):
         digest.update(str(source.relative_to(folder)).encode())
         digest.update(source.read_bytes())
-    base = os.environ.get("MAGWIRE_CACHE")
-    root = Path(base) if base else _user_cache()
-    return root / f"kernels-{digest.hexdigest()[:16]}"
+    name = f"kernels-{digest.hexdigest()[:16]}"
+    for root in (_chosen(), _private()):
+        if root is not None and _writable(root / name):
+            return root / name
+    return None
 
 
-def _user_cache() -> Path:
-    """The user's cache folder, or a temporary one where there is no home to write to."""
+def _chosen() -> Path | None:
+    """The folder that somebody has chosen, or the user's own; None without a home."""
+    own, site = os.environ.get("MAGWIRE_CACHE"), os.environ.get("NUMBA_CACHE_DIR")
     home = os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA")
-    folder = (Path(home) if home else Path.home() / ".cache") / "magwire"
+    if own or site:
+        return Path(own) if own else Path(site or "") / "magwire"
+    try:
+        return (Path(home) if home else Path.home() / ".cache") / "magwire"
+    except RuntimeError:
+        return None
+
+
+def _private() -> Path | None:
+    """A folder for temporary files that only this user can write to; None if there is none.
+
+    numba loads what it finds as pickles, which can run anything: nobody else may put them there.
+    """
+    user = os.getuid() if hasattr(os, "getuid") else None  # Windows has such folders by user
+    try:
+        folder = Path(tempfile.gettempdir()) / (
+            f"magwire-{user}" if user is not None else "magwire"
+        )
+        folder.mkdir(mode=0o700, exist_ok=True)
+        found = folder.lstat()
+    except OSError:
+        return None
+    if user is None:
+        return folder
+    ours = stat.S_ISDIR(found.st_mode) and found.st_uid == user and not found.st_mode & 0o077
+    return folder if ours else None
+
+
+def _writable(folder: Path) -> bool:
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return True
     except OSError:
-        folder = Path(tempfile.gettempdir()) / "magwire"
-    return folder
+        return False
+
+
+CACHE = _cache_folder()
+"""Where machine code is kept; None if there is no place to write to: each process compiles then."""
+if CACHE is not None:
+    numba.config.CACHE_DIR = str(CACHE)
 
 
 def compiled_before() -> bool:
     """Whether machine code of these kernels is there from an earlier run."""
-    return any(Path(numba.config.CACHE_DIR).rglob("march.march-*.nbc"))
-
-
-if "NUMBA_CACHE_DIR" not in os.environ:
-    numba.config.CACHE_DIR = str(_cache_folder())
+    return CACHE is not None and any(CACHE.rglob("march.march-*.nbc"))
 
 
 def kernel(function: Function) -> Function:
@@ -56,15 +92,17 @@ def kernel(function: Function) -> Function:
     Without numba's runtime (``_nrt``) arrays are not reference-counted, which costs half of a time
     step; a kernel that allocates memory is refused.
     """
-    compiled: Function = numba.njit(cache=True, nogil=True, error_model="numpy", _nrt=False)(
-        function
-    )
-    return compiled
+    return _compiled(function)
 
 
 def part(function: Function) -> Function:
     """A kernel that has one caller only: compiled as a part of it, not once more on its own."""
-    compiled: Function = numba.njit(
-        cache=True, nogil=True, error_model="numpy", _nrt=False, inline="always"
-    )(function)
-    return compiled
+    return _compiled(function, inline="always")
+
+
+def _compiled(function: Function, **more: str) -> Function:
+    keep = CACHE is not None
+    made: Function = numba.njit(cache=keep, nogil=True, error_model="numpy", _nrt=False, **more)(
+        function
+    )
+    return made

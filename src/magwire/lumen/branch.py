@@ -16,6 +16,10 @@ Array = NDArray[np.float64]
 
 REPEATED = 1e-9  # smallest distance of neighbouring points, over the length of the polyline
 STEEPEST = 0.95  # largest |dR/dS|; at 1 each ball swallows the one before
+# Conditioning guards: arithmetic and memory end beyond them, long before any vessel does.
+FARTHEST = 1e6  # coordinate of a point [m]
+SLENDEREST = 1e5  # length over the smallest radius
+SMALLEST = 1e-12  # radius [m]
 
 
 class Bend(NamedTuple):
@@ -192,6 +196,12 @@ def _points(value: ArrayLike) -> Array:
         raise InputError(
             f"Input points of Branch must be at least two points; received {len(points)}."
         )
+    far = float(np.abs(points).max())
+    if far > FARTHEST:
+        raise InputError(
+            f"Input points of Branch must be within {FARTHEST:g} m of the origin; "
+            f"received {far:.6g} m."
+        )
     steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
     close = np.flatnonzero(steps <= REPEATED * steps.sum())
     if len(close) > 0:
@@ -213,6 +223,13 @@ def _radius(value: ArrayLike, points: Array) -> Array:
         where = f" at point {i}" if np.ndim(value) > 0 else ""
         raise InputError(
             f"Input radius of Branch must be positive; received {radius[i]:.10g} m{where}."
+        )
+    length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+    least = max(length / SLENDEREST, SMALLEST)
+    if radius.min() < least:
+        raise InputError(
+            f"Input radius of Branch must be at least {least:.3g} m for its length of "
+            f"{length:.6g} m; received {radius.min():.3g} m at point {int(np.argmin(radius))}."
         )
     return radius
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from magwire.errors import InputError
+from magwire.files import write_whole
 from magwire.many.job import Answer, Job
 
 AHEAD = 2  # runs given to the cluster for each of its threads: what waits there costs memory
@@ -77,7 +78,7 @@ def run_there(jobs: Sequence[Job], address: str, workers: int) -> Generator[Answ
             done, data = (_lost(lost), b"") if lost else future.result()
             del future  # the cluster may forget it
             if job.file is not None and data:
-                Path(job.file).write_bytes(data)
+                write_whole(Path(job.file), data)
             for sent in send(1):
                 coming.add(sent)
             yield Answer(job.number, done)

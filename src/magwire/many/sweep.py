@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,9 +12,11 @@ from typing import Any
 import tomli_w
 
 from magwire.errors import MagwireError, ScenarioError, received
+from magwire.files import TextFaultError, parse_toml, read_text
 from magwire.many.sampling import Choice, Range, Span, Value, samples, split
 from magwire.scenario import Scenario, load, parse
 from magwire.scenario.faults import suggestion
+from magwire.scenario.reader import text_of
 
 METHODS = ("grid", "random", "sobol")
 KEYS = ("scenario", "method", "samples", "seed", "ranges")
@@ -42,6 +43,8 @@ class Sweep:
         Of these keys, for each run.
     text
         The whole sweep as TOML: the same text is the same sweep.
+    note
+        What was made of it that is not in the file, a sentence; "" if nothing was.
     """
 
     base: str
@@ -49,6 +52,7 @@ class Sweep:
     ranges: tuple[Range, ...]
     values: tuple[tuple[Value, ...], ...]
     text: str
+    note: str = ""
 
     @cached_property
     def scenarios(self) -> list[Scenario]:
@@ -86,11 +90,11 @@ def read(path: str | Path) -> Sweep:
     """
     path = Path(path)
     try:
-        raw = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+        raw = parse_toml(read_text(path))
     except OSError as error:
         reason = (error.strerror or "unknown reason").lower()
         raise ScenarioError(f"Sweep '{path}' cannot be read: {reason}.") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except (TextFaultError, UnicodeDecodeError) as error:
         raise ScenarioError(f"Sweep '{path}' is not valid TOML: {error}.") from None
     table = raw.pop("sweep", None)
     if not isinstance(table, dict):
@@ -112,7 +116,10 @@ def read(path: str | Path) -> Sweep:
     if faults:
         raise ScenarioError(faults)
     values = tuple(samples(ranges, method, count, seed))
-    return Sweep(base, path.parent, ranges, values, base + tomli_w.dumps({"sweep": table}))
+    asked = table.get("samples", count)
+    note = f"Method '{method}' needs a power of two: {count} runs in place of {asked}."
+    text = base + tomli_w.dumps({"sweep": table})
+    return Sweep(base, path.parent, ranges, values, text, note if count != asked else "")
 
 
 def _base(table: dict[str, Any], raw: dict[str, Any], folder: Path, faults: list[str]) -> str:
@@ -124,7 +131,7 @@ def _base(table: dict[str, Any], raw: dict[str, Any], folder: Path, faults: list
                 "Input sweep.scenario is missing; expected a scenario's name or file, or the "
                 "scenario's own tables next to [sweep]."
             )
-        return tomli_w.dumps(raw)
+        return tomli_w.dumps(_placed(raw, folder))
     if not isinstance(name, str):
         faults.append(f"Input sweep.scenario must be text; received {received(name)}.")
     elif raw:
@@ -132,10 +139,32 @@ def _base(table: dict[str, Any], raw: dict[str, Any], folder: Path, faults: list
         faults.append(f"Input sweep.scenario cannot stand next to {tables}; remove one of them.")
     else:
         try:
-            return load(folder / name if (folder / name).is_file() else name).to_toml()
+            return _other(folder / name if (folder / name).is_file() else name, table)
         except MagwireError as error:
             faults += str(error).splitlines()
     return ""
+
+
+def _other(source: str | Path, table: dict[str, Any]) -> str:
+    """A scenario that the sweep names: with its files read, unless a range says how to read one."""
+    whole = load(source)
+    text, folder = text_of(source)
+    raw, given = parse_toml(text), table.get("ranges")
+    keys = [key for key, _ in _flat(given)] if isinstance(given, dict) else []
+    for part in ("lumen", "navigate"):
+        if "file" in raw.get(part, {}) and any(key.startswith(f"{part}.") for key in keys):
+            return tomli_w.dumps(_placed(raw, folder))
+    return whole.to_toml()
+
+
+def _placed(raw: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """The tables with names of files that hold from any folder."""
+    placed = dict(raw)
+    for part in ("lumen", "navigate"):
+        table = raw.get(part)
+        if isinstance(table, dict) and isinstance(table.get("file"), str):
+            placed[part] = {**table, "file": str((folder / table["file"]).resolve())}
+    return placed
 
 
 def _ranges(table: dict[str, Any], faults: list[str]) -> tuple[Range, ...]:
@@ -215,12 +244,8 @@ def _method(table: dict[str, Any], faults: list[str]) -> tuple[str, int, int]:
             f"received {'none' if count is None else received(count)}."
         )
         count = 1
-    elif method == "sobol" and count & (count - 1):
-        power = 1 << count.bit_length()
-        faults.append(
-            "Input sweep.samples must be a power of two for method 'sobol', such as "
-            f"{power // 2} or {power}; received {count}."
-        )
+    elif method == "sobol":  # it fills the ranges evenly with a power of two only
+        count = 1 << (count - 1).bit_length()
     if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
         faults.append(
             f"Input sweep.seed must be a whole number, zero or larger; received {received(seed)}."

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from magwire.errors import MagwireError
+from magwire.files import clear, write_whole
 from magwire.many.job import Job
 from magwire.many.outcome import QUANTITIES
 from magwire.many.runs import outcomes_of, progress
@@ -66,11 +67,13 @@ def carry_out(
     """
     scenarios = sweep.scenarios
     dataset = load(folder / TABLE) if begun(folder, sweep) else blank(sweep)
-    (folder / RUNS if keep else folder).mkdir(parents=True, exist_ok=True)
-    (folder / SWEEP).write_text(sweep.text, encoding="utf-8")
+    results = folder / RUNS if keep else folder
+    results.mkdir(parents=True, exist_ok=True)
+    clear(results)
+    write_whole(folder / SWEEP, sweep.text)
     with Table(dataset, folder / TABLE) as table:
         jobs = [
-            Job(n, scenarios[n].to_toml(), str(folder / RUNS / f"{n:04d}.nc") if keep else None)
+            Job(n, scenarios[n].to_toml(), str(results / f"{n:04d}.nc") if keep else None)
             for n in table.pending
         ]
         with (
@@ -87,14 +90,16 @@ def lines(table: xr.Dataset) -> list[str]:
     """What to know of a sweep, a line each."""
     status = Counter(str(word) for word in table["status"].values)
     ended = ", ".join(f"{count} {word}" for word, count in status.most_common())
-    free, clear = (
-        int(np.nansum(table[f"{part}_contact_free"].values == 1.0)) for part in ("tip", "wire")
+    whole = table["status"].values == "complete"  # one that stopped early had not met all of it
+    tips, wires = (
+        int(np.count_nonzero(table[f"{part}_contact_free"].values[whole] == 1.0))
+        for part in ("tip", "wire")
     )
     rows = {
         "runs": f"{table.sizes['run']}: {ended}",
         "varied": str(table.attrs["parameters"]),
-        "tip clear throughout": f"in {free} runs",
-        "wire clear, too": f"in {clear} runs",
+        "tip clear throughout": f"in {tips} of {int(whole.sum())} complete runs",
+        "wire clear, too": f"in {wires} of {int(whole.sum())} complete runs",
     }
     for name, label, dimension in (
         ("max_tip_force", "peak tip force", "force"),

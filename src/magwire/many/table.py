@@ -13,6 +13,7 @@ from magwire.errors import ResultError
 from magwire.many.outcome import QUANTITIES, Outcome
 from magwire.many.sampling import column
 from magwire.many.sweep import Sweep
+from magwire.results import disk, provenance
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -43,6 +44,7 @@ def blank(sweep: Sweep) -> xr.Dataset:
     attributes = {
         "Conventions": "CF-1.11",
         "source": f"magwire {magwire.__version__}",
+        **provenance.attributes(),
         "sweep": sweep.text,
         "parameters": ", ".join(varied.key for varied in sweep.ranges),
     }
@@ -103,12 +105,11 @@ class Table:
 
     def save(self) -> None:
         """Write the file; the former one is there until the new one is whole."""
-        draft = self.path.with_name(f".{self.path.name}.draft")
         try:
-            self.dataset.to_netcdf(draft, engine="h5netcdf")
-            draft.replace(self.path)
-        finally:
-            draft.unlink(missing_ok=True)
+            disk.save(self.dataset, self.path)
+        except OSError as error:
+            reason = (error.strerror or str(error)).lower()
+            raise ResultError(f"Table '{self.path}' cannot be written: {reason}.") from None
         self._due = time.monotonic() + SECONDS
 
     def __enter__(self) -> Table:

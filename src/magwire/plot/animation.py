@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable, Iterator
 from itertools import chain
 from pathlib import Path
@@ -17,6 +16,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from magwire.errors import InputError, MagwireError, positive, whole
+from magwire.files import parse_toml, successor
 from magwire.plot import curves, shapes, style
 from magwire.units import parse
 
@@ -107,7 +107,8 @@ def animate(
                 yield scene.frame(int(record))
                 watch(done, frames)
 
-    writers[path.suffix.lower()](path, pictures(), size, rate)
+    with successor(path) as draft:
+        writers[path.suffix.lower()](draft, pictures(), size, rate)
     return path
 
 
@@ -203,7 +204,7 @@ class Scene:
             self.ax = self.figure.add_axes(place)
             shapes.draw_planar(self.ax, data, self.plane, wires=False)
         self.low, self.high = shapes.window(data)
-        title = str(data.attrs.get("title", ""))
+        title = style.plain(data.attrs.get("title", ""))
         self.figure.text(0.02, 0.955, title, fontsize=9.5, fontweight="bold", va="center")
         self.words = self.figure.text(0.98, 0.955, "", ha="right", va="center")
 
@@ -244,7 +245,7 @@ def magnetised(data: xr.Dataset) -> NDArray[np.bool_]:
     nodes = data.sizes["node"]
     s = np.linspace(0.0, float(data.attrs["length_scale"]), nodes)
     found = np.zeros(nodes, dtype=bool)
-    wire = tomllib.loads(str(data.attrs.get("scenario", ""))).get("wire", {})
+    wire = parse_toml(str(data.attrs.get("scenario", ""))).get("wire", {})
     if "sections" not in wire:
         part = parse(wire["magnetized_tip"], "length", "magnetized_tip") if wire else 0.0
         return np.asarray(s >= s[-1] - part - 1e-9) if part > 0.0 else found
@@ -295,8 +296,5 @@ def _write_mp4(path: Path, frames: Iterator[Frame], size: tuple[int, int], rate:
     try:
         for frame in chain([first], frames):
             writer.send(np.ascontiguousarray(frame))
-    except BaseException:
+    finally:
         writer.close()
-        path.unlink(missing_ok=True)
-        raise
-    writer.close()

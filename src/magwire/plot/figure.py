@@ -13,6 +13,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from magwire.files import successor
 from magwire.plot import curves, loads, shapes, style
 
 if TYPE_CHECKING:
@@ -112,8 +113,9 @@ def save(
     paths = [Path(folder) / f"{name}.{suffix}" for suffix in FORMATS]
     with mpl.rc_context(style.RC):
         for path in paths:
-            # Without the date, the same result makes the same file.
-            figure.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
+            with successor(path) as draft:
+                # Without the date, the same result makes the same file.
+                figure.savefig(draft, metadata={"Date": None} if path.suffix == ".svg" else None)
     return paths
 
 
@@ -156,11 +158,11 @@ def _draw_loads(panel: Any, runs: list[xr.Dataset]) -> list[Any]:
 
 def _title(data: xr.Dataset) -> str:
     """Letter, title, motion unless it is dynamic and, for a run that ended early, how."""
-    title = str(data.attrs.get("title", ""))
+    title = style.plain(data.attrs.get("title", ""))
     motion = str(data.attrs.get("motion", "dynamic"))
     if motion != "dynamic":
         title = f"{title}, {motion}" if title else motion
-    status = str(data.attrs.get("status", "complete"))
+    status = style.plain(data.attrs.get("status", "complete"))
     push = data["normalized_push"].values
     if status != "complete" and push.size:
         title += f" ({status} at push {push[-1]:.3f})"

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Line3DCollection
 from numpy.typing import NDArray
 
+from magwire.files import successor
 from magwire.plot import shapes, style
 
 Array = NDArray[np.float64]
@@ -64,8 +65,8 @@ def save(
 ) -> None:
     """Draw the tree into a file; the parameters are those of ``draw``."""
     figure = draw(tubes, fields)
-    with mpl.rc_context(style.RC):
-        figure.savefig(path)
+    with mpl.rc_context(style.RC), successor(Path(path)) as draft:
+        figure.savefig(draft)
 
 
 def _needed(
@@ -115,4 +116,4 @@ def _draw_way(
     mark = "o" if reached else "x"
     colour = colours[-1] if reached else style.FORCE
     axes.plot(*own.points[-1:].T, mark, color=colour, markersize=4.5)
-    axes.text(*own.points[-1], f"  {name}", color=style.INK, fontsize=7.0)
+    axes.text(*own.points[-1], f"  {style.plain(name)}", color=style.INK, fontsize=7.0)

@@ -6,6 +6,8 @@ from typing import Any
 
 from matplotlib.colors import LinearSegmentedColormap
 
+from magwire.errors import shortened
+
 MM = 1.0 / 25.4
 """Inches in a millimetre: figures are sized in millimetres."""
 
@@ -75,3 +77,9 @@ RC: Any = {
     "savefig.dpi": 300,
     "svg.hashsalt": "magwire",
 }
+
+
+def plain(text: object) -> str:
+    """A text of a user's as matplotlib shows it letter by letter: no mathematics, no line ends."""
+    letters = (letter if letter.isprintable() else " " for letter in shortened(text))
+    return "".join(letters).replace("$", r"\$")

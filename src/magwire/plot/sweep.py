@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from magwire.files import successor
 from magwire.plot import style
 from magwire.plot.figure import FORMATS
 
@@ -111,7 +112,8 @@ def save_sweep(table: xr.Dataset, folder: str | Path, name: str = "sweep") -> li
     paths = [Path(folder) / f"{name}.{suffix}" for suffix in FORMATS]
     with mpl.rc_context(style.RC):
         for path in paths:
-            figure.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
+            with successor(path) as draft:
+                figure.savefig(draft, metadata={"Date": None} if path.suffix == ".svg" else None)
     return paths
 
 
@@ -134,7 +136,8 @@ def _axis(table: xr.Dataset, name: str) -> tuple[Any, list[str], str]:
     values = table[name].values
     if values.dtype.kind not in "fiu":
         words = list(dict.fromkeys(str(value) for value in values))
-        return np.array([words.index(str(value)) for value in values]), words, name
+        where = np.array([words.index(str(value)) for value in values])
+        return where, [style.plain(word) for word in words], name
     units = str(table[name].attrs["units"])
     factor, shown = SHOWN.get(units, (1.0, units))
     return factor * values, [], name if shown == "1" else f"{name} [{shown}]"

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from numpy.typing import NDArray
 
+from magwire.files import successor
 from magwire.plot import shapes, style
 
 Array = NDArray[np.float64]
@@ -81,7 +82,12 @@ def draw_into(
         _draw_tubes(space, parts, tubes)
         axes = halves[1].subplots()
         for i, (name, part) in enumerate(zip(tubes, parts, strict=True)):
-            axes.plot(shapes.arcs(part), part.radius, color=COLOURS[i % len(COLOURS)], label=name)
+            axes.plot(
+                shapes.arcs(part),
+                part.radius,
+                color=COLOURS[i % len(COLOURS)],
+                label=style.plain(name),
+            )
         if wire is not None:
             axes.axhline(1e3 * wire, color=style.INK, linestyle="--", linewidth=0.8, label="wire")
         axes.set(xlabel="arc length from the entrance [mm]", ylabel="radius [mm]")
@@ -97,8 +103,8 @@ def save(
 ) -> None:
     """Draw the tubes of a vessel into a file; the parameters are those of ``draw``."""
     figure = draw(tubes, wire, surface)
-    with mpl.rc_context(style.RC):
-        figure.savefig(path)
+    with mpl.rc_context(style.RC), successor(Path(path)) as draft:
+        figure.savefig(draft)
 
 
 def _draw_surface(axes: Any, surface: Mesh) -> None:
@@ -121,6 +127,6 @@ def _draw_tubes(axes: Any, parts: list[shapes.Branch], names: Mapping[str, Any])
             antialiased=True, rasterized=True,
         )  # fmt: skip
         axes.plot(*own.points.T, color=colour, linewidth=0.9)
-        axes.text(*own.points[-1], f" {name}", color=colour, fontsize=6.5)
+        axes.text(*own.points[-1], f" {style.plain(name)}", color=colour, fontsize=6.5)
     axes.plot(*parts[0].points[:1].T, "o", color=style.INK, markersize=3.5)
     shapes.frame(axes, parts)

@@ -14,6 +14,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from magwire.files import successor
 from magwire.plot import curves, shapes, style
 from magwire.reproduce.active_claims import NAMES
 from magwire.reproduce.outcome import Outcome
@@ -42,7 +43,8 @@ def canvas(height: float) -> Figure:
 
 def save(figure: Figure, file: Path) -> None:
     """Write a figure as PNG."""
-    figure.savefig(file, dpi=DPI)
+    with successor(file) as draft:
+        figure.savefig(draft, dpi=DPI)
 
 
 def passive(runs: Mapping[str, xr.Dataset], file: Path) -> None:

@@ -12,6 +12,7 @@ from typing import Literal
 
 import magwire
 from magwire.errors import InputError
+from magwire.files import write_whole
 from magwire.reproduce import passive, speed, steering, tables
 from magwire.reproduce.chapter import Chapter, Part
 from magwire.reproduce.page import Block, Heading, claims_table, to_html, to_markdown
@@ -87,8 +88,8 @@ def reproduce(
         watch(f"pictures, {name}")
         chapters.append(PARTS[name].write(runs, images))
     blocks = compose(chapters, whole=len(names) == len(PARTS), seconds=time.perf_counter() - began)
-    (folder / PAGE).write_text(to_html(TITLE, blocks), encoding="utf-8")
-    (folder / TEXT).write_text(to_markdown(TITLE, blocks), encoding="utf-8")
+    write_whole(folder / PAGE, to_html(TITLE, blocks))
+    write_whole(folder / TEXT, to_markdown(TITLE, blocks))
     return chapters
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -11,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.engine.record import Record, RunInfo
-from magwire.results import forces
+from magwire.files import parse_toml
+from magwire.results import forces, provenance
 from magwire.results.forces import Layout
 
 FLOAT = np.dtype(np.float64)
@@ -244,8 +244,13 @@ def derive(columns: Columns, layout: Layout) -> dict[str, NDArray[Any]]:
     return {name: known[name] for name in DERIVED}
 
 
+def plain(text: str) -> str:
+    """A text without what NetCDF does not take, such as a zero byte."""
+    return "".join(letter if letter.isprintable() else " " for letter in text)
+
+
 def _title_of(scenario: str) -> str:
-    title = tomllib.loads(scenario).get("title", "")
+    title = parse_toml(scenario).get("title", "")
     return title if isinstance(title, str) else ""
 
 
@@ -263,9 +268,10 @@ def opening_attributes(info: RunInfo, layout: Layout, version: str) -> dict[str,
     """Attributes of the file that are known from the start."""
     return {
         "Conventions": "CF-1.11",
-        "title": info.title or _title_of(info.scenario),
+        "title": plain(info.title or _title_of(info.scenario)),
         "source": f"magwire {version}",
         "magwire_version": version,
+        **provenance.attributes(),
         "scenario": info.scenario,
         "motion": info.motion,
         "length_scale": float(info.scales.length),

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.errors import ResultError, positive
-from magwire.results import forces
+from magwire.files import successor
+from magwire.results import disk, forces, loading
 from magwire.results.older import completed
 
 if TYPE_CHECKING:
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 FILE = "result.nc"
-REQUIRED = ("time", "feed", "position", "tip_force", "clearance")
 
 
 class Result:
@@ -53,9 +53,6 @@ class Result:
         ResultError
             If it is no result file.
         """
-        import h5py
-        import xarray as xr
-
         path = Path(path)
         if path.is_dir():
             if not (path / FILE).exists():
@@ -63,16 +60,7 @@ class Result:
             path = path / FILE
         if not path.exists():
             raise ResultError(f"Result file '{path}' does not exist.")
-        if not h5py.is_hdf5(path):
-            raise ResultError(f"Result file '{path}' is not a readable NetCDF-4 file.")
-        try:
-            dataset = xr.load_dataset(path, engine="h5netcdf")
-        except (OSError, ValueError, KeyError) as error:
-            raise ResultError(f"Result file '{path}' is not a readable NetCDF-4 file.") from error
-        absent = [name for name in REQUIRED if name not in dataset.variables]
-        if absent or "status" not in dataset.attrs:
-            raise ResultError(f"File '{path}' is not a result of magwire.")
-        return cls(dataset)
+        return cls(loading.load(path))
 
     def save(self, path: str | Path) -> Path:
         """Write a result file; an existing one is overwritten.
@@ -84,9 +72,10 @@ class Result:
         """
         path = Path(path)
         try:
-            self.dataset.to_netcdf(path, engine="h5netcdf", unlimited_dims=["time"])
+            disk.save(self.dataset, path, ("time",))
         except OSError as error:
-            raise ResultError(f"Result file '{path}' cannot be written: {error}.") from error
+            reason = (error.strerror or str(error)).lower()
+            raise ResultError(f"Result file '{path}' cannot be written: {reason}.") from error
         return path
 
     def plot(self, path: str | Path | None = None) -> Figure:
@@ -101,14 +90,16 @@ class Result:
 
         figure = draw(self.dataset)
         if path is not None:
-            figure.savefig(Path(path))
+            with successor(Path(path)) as draft:
+                figure.savefig(draft)
         return figure
 
     @property
     def status(self) -> str:
         """How it ended, or "running".
 
-        "complete", "not converged", "unstable", "no field", "interrupted" or "failed".
+        "complete", "not converged", "unstable", "no field", "interrupted", "terminated" or
+        "failed".
         """
         return str(self.dataset.attrs["status"])
 

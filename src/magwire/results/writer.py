@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import shutil
+import errno
+import os
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
@@ -15,6 +15,9 @@ import numpy as np
 import magwire
 from magwire.engine.record import Record, RunInfo
 from magwire.errors import ResultError
+from magwire.files import claimed
+from magwire.interrupt import Terminated
+from magwire.results import disk
 from magwire.results.contract import (
     CONSTANTS,
     DERIVED,
@@ -49,7 +52,8 @@ class Writer:
     takes the place of the file in one step: a process that is killed at any time leaves a file that
     is complete up to its last flush, and others may read it while the run goes. As a context
     manager the writer closes itself when the block is left by an exception: "interrupted" after
-    Ctrl-C, "failed" else.
+    Ctrl-C, "terminated" when the process is told to end, "failed" else. No other process may write
+    the same file meanwhile.
 
     Parameters
     ----------
@@ -62,6 +66,8 @@ class Writer:
     ------
     ResultError
         If the file cannot be written.
+    InUseError
+        If another process is writing it.
     """
 
     def __init__(self, info: RunInfo, path: str | Path | None = None) -> None:
@@ -74,6 +80,7 @@ class Writer:
         self._last: Record | None = None
         self._written = 0
         self._due = 0.0
+        self._claim = ExitStack()
         self._attributes = opening_attributes(info, self.layout, magwire.__version__)
         self._attributes |= {"status": "running", "message": ""} | running_attributes(None)
         if self.path is not None:
@@ -107,7 +114,8 @@ class Writer:
         Parameters
         ----------
         status
-            "complete", "not converged", "unstable", "no field", "interrupted" or "failed".
+            "complete", "not converged", "unstable", "no field", "interrupted", "terminated" or
+            "failed".
         message
             One sentence on why, "" if the run is complete.
         """
@@ -120,6 +128,8 @@ class Writer:
                 self._commit(self.path, status=status, message=message)
             except OSError as error:
                 raise _unwritable(self.path, error) from None
+            finally:
+                self._claim.close()
 
     def result(self) -> Result:
         """What has been recorded; of a closed writer only."""
@@ -142,6 +152,8 @@ class Writer:
             self.close("complete")
         elif isinstance(error, KeyboardInterrupt):
             self.close("interrupted", "The run was interrupted.")
+        elif isinstance(error, Terminated):
+            self.close("terminated", str(error))
         else:
             self.close("failed", str(error) or type(error).__name__)
 
@@ -184,10 +196,12 @@ class Writer:
         """Make the file, without records."""
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
-            with _successor(path) as draft:
-                draft.open("wb").close()  # has plainer errors than HDF5
-                self._lay_out(draft)
+            if path.is_dir():
+                raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+            self._claim.enter_context(claimed(path, "Result file"))
+            disk.create(path, self._lay_out)
         except OSError as error:
+            self._claim.close()
             raise _unwritable(path, error) from None
 
     def _commit(self, path: Path, **attributes: str) -> None:
@@ -195,58 +209,43 @@ class Writer:
 
         Rows are added through h5py, as all that is special about NetCDF-4 is in the file by now.
         """
-        import h5py
-
         last = self._written + len(self._waiting)
-        with _successor(path) as draft:
-            shutil.copyfile(path, draft)
-            with h5py.File(draft, "r+") as file:
-                for name, column in self._columns(self._waiting).items():
-                    file[name].resize(last, axis=0)
-                    file[name][self._written :] = column
-                for name, value in running_attributes(self._last).items():
-                    file.attrs.modify(name, value)
-                file.attrs.update(attributes)
+
+        def add(file: Any) -> None:
+            for name, column in self._columns(self._waiting).items():
+                file[name].resize(last, axis=0)
+                file[name][self._written :] = column
+            for name, value in running_attributes(self._last).items():
+                file.attrs.modify(name, value)
+            file.attrs.update(attributes)
+
+        disk.revise(path, add)
         self._written = last
         self._waiting.clear()
 
-    def _lay_out(self, path: Path) -> None:
-        """Write a file with all that is known from the start, and no records."""
-        import h5netcdf
-
+    def _lay_out(self, file: Any) -> None:
+        """All that is known from the start, and no records."""
         lengths = {name: size for name, size in self.sizes.items() if size > 0}
-        with h5netcdf.File(path, "w") as file:
-            file.dimensions = {"time": None, **lengths}
-            for name, value in self._attributes.items():
-                file.attrs[name] = value
-            growing = {n: v for n, v in (VARIABLES | DERIVED).items() if self._exists(v)}
-            for name, variable in growing.items():
-                shape = tuple(lengths[dim] for dim in variable.dims[1:])
-                rows = max(1, CHUNK_BYTES // (variable.dtype.itemsize * int(np.prod(shape))))
-                # What is missing is NaN, not zero; coordinates have no fill value.
-                fill = np.nan if variable.dtype == FLOAT and name != "time" else None
-                made = file.create_variable(
-                    name, variable.dims, variable.dtype, chunks=(rows, *shape), fillvalue=fill
-                )
-                notes = {"units": variable.units, "long_name": variable.long_name}
-                made.attrs.update(notes | dict(variable.extra))
-            for name, constant in self._constants().items():
-                made = file.create_variable(name, constant.dims, constant.dtype)
-                made[...] = self._constant(constant)
-                made.attrs.update({"units": constant.units, "long_name": constant.long_name})
+        file.dimensions = {"time": None, **lengths}
+        for name, value in self._attributes.items():
+            file.attrs[name] = value
+        growing = {n: v for n, v in (VARIABLES | DERIVED).items() if self._exists(v)}
+        for name, variable in growing.items():
+            shape = tuple(lengths[dim] for dim in variable.dims[1:])
+            rows = max(1, CHUNK_BYTES // (variable.dtype.itemsize * int(np.prod(shape))))
+            # What is missing is NaN, not zero; coordinates have no fill value.
+            fill = np.nan if variable.dtype == FLOAT and name != "time" else None
+            made = file.create_variable(
+                name, variable.dims, variable.dtype, chunks=(rows, *shape), fillvalue=fill
+            )
+            notes = {"units": variable.units, "long_name": variable.long_name}
+            made.attrs.update(notes | dict(variable.extra))
+        for name, constant in self._constants().items():
+            made = file.create_variable(name, constant.dims, constant.dtype)
+            made[...] = self._constant(constant)
+            made.attrs.update({"units": constant.units, "long_name": constant.long_name})
 
 
 def _unwritable(path: Path, error: OSError) -> ResultError:
     reason = (error.strerror or str(error)).lower()
     return ResultError(f"Result file '{path}' cannot be written: {reason}.")
-
-
-@contextmanager
-def _successor(path: Path) -> Iterator[Path]:
-    """A draft next to the file that takes its place in one step, if nothing goes wrong."""
-    draft = path.with_name(f".{path.name}.draft")
-    try:
-        yield draft
-        draft.replace(path)
-    finally:
-        draft.unlink(missing_ok=True)

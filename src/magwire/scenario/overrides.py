@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Sequence
 from typing import Any
+
+from magwire.files import TextFaultError, parse_toml
 
 
 def apply(raw: dict[str, Any], overrides: Sequence[str]) -> list[str]:
@@ -49,8 +50,8 @@ def _restart(raw: dict[str, Any], overrides: Sequence[str]) -> None:
 
 def _value(text: str) -> Any:
     try:
-        return tomllib.loads(f"value = {text}")["value"]
-    except tomllib.TOMLDecodeError:
+        return parse_toml(f"value = {text}")["value"]
+    except TextFaultError:
         return text
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from magwire import units
+from magwire.files import read_text
 
 AXES = ("x", "y", "z")
 
@@ -67,7 +68,7 @@ def _read(
     path: Path, name: str, columns: tuple[str, ...]
 ) -> tuple[list[dict[str, str]], list[str]]:
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = read_text(path)
     except OSError as error:
         reason = (error.strerror or "unknown reason").lower()
         return [], [f"Input lumen.file '{name}' cannot be read: {reason}."]

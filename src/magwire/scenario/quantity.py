@@ -12,7 +12,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from magwire import units
-from magwire.errors import InputError, received
+from magwire.errors import InputError, received, shortened
 
 FAULT = "magwire"
 """Error type whose message continues a sentence that starts with ``Input <key>``."""
@@ -87,7 +87,7 @@ class Quantity(Kind):
             raise fault(str(error).removeprefix("Input value ").removesuffix(".")) from None
         expected, fits = _SIGNS[self.sign]
         if not fits(number):
-            raise fault(f"must be {expected}; received {value}")
+            raise fault(f"must be {expected}; received {shortened(value)}")
         return number
 
     def write(self, value: float) -> str:
@@ -238,9 +238,9 @@ class Whole(Kind):
         if isinstance(value, bool) or not isinstance(value, int):
             raise fault(f"must be a whole number without a unit; received {received(value)}")
         if value < self.minimum:
-            raise fault(f"must be at least {self.minimum}; received {value}")
+            raise fault(f"must be at least {self.minimum}; received {shortened(value)}")
         if value > self.maximum:
-            raise fault(f"must be at most {self.maximum}; received {value}")
+            raise fault(f"must be at most {self.maximum}; received {shortened(value)}")
         return value
 
     def schema(self) -> JsonSchemaValue:
@@ -265,7 +265,7 @@ class Share(Kind):
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             raise fault(f"must be {self.expected}; received {received(value)}")
         if not self.low <= value <= self.high:
-            raise fault(f"must be from {self.low:g} to {self.high:g}; received {value}")
+            raise fault(f"must be from {self.low:g} to {self.high:g}; received {shortened(value)}")
         return float(value)
 
     def schema(self) -> JsonSchemaValue:

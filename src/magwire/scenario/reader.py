@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tomllib
 from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
@@ -12,6 +11,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from magwire.errors import ScenarioError
+from magwire.files import TextFaultError, parse_toml, read_text
 from magwire.scenario.checks import cross_faults
 from magwire.scenario.faults import Key, key_of, sentence, suggestion
 from magwire.scenario.model import Scenario
@@ -45,7 +45,7 @@ def load(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Scenario:
     ScenarioError
         With all faults of the scenario, one sentence each.
     """
-    text, folder = _read(name_or_path)
+    text, folder = text_of(name_or_path)
     return parse(text, overrides, folder=folder, source=str(name_or_path))
 
 
@@ -73,9 +73,9 @@ def parse(
     if not text.strip():
         raise ScenarioError(f"Scenario '{source}' is empty.")
     try:
-        raw = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise ScenarioError(f"Scenario '{source}' is not valid TOML: {_plain(error)}.") from None
+        raw = parse_toml(text)
+    except TextFaultError as error:
+        raise ScenarioError(f"Scenario '{source}' is not valid TOML: {error}.") from None
     faults = apply(raw, overrides)
     unread: set[Key] = set()
     notes: tuple[str, ...] = ()
@@ -136,7 +136,14 @@ def _validate(raw: dict[str, Any], faults: list[str], unread: set[Key]) -> Scena
     return scenario
 
 
-def _read(name_or_path: str | Path) -> tuple[str, Path]:
+def text_of(name_or_path: str | Path) -> tuple[str, Path]:
+    """The text of a scenario as it stands, and the folder that file names in it start from.
+
+    Raises
+    ------
+    ScenarioError
+        If there is none, or it cannot be read.
+    """
     name = str(name_or_path)
     if isinstance(name_or_path, str) and name in names():
         entry = files("magwire.scenario").joinpath("library", f"{name}.toml")
@@ -147,14 +154,9 @@ def _read(name_or_path: str | Path) -> tuple[str, Path]:
     if path.is_dir():
         raise ScenarioError(f"Scenario '{name}' is a folder; expected a TOML file.")
     try:
-        return path.read_text(encoding="utf-8-sig"), path.parent
+        return read_text(path), path.parent
     except UnicodeDecodeError:
         raise ScenarioError(f"Scenario '{name}' is not a text file.") from None
     except OSError as error:
         reason = (error.strerror or "unknown reason").lower()
         raise ScenarioError(f"Scenario '{name}' cannot be read: {reason}.") from None
-
-
-def _plain(error: tomllib.TOMLDecodeError) -> str:
-    text = str(error)
-    return text[:1].lower() + text[1:]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import re
-import tomllib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +12,7 @@ import numpy as np
 import tomli_w
 
 from magwire.errors import InputError, MagwireError, finite, positive
+from magwire.files import parse_toml, read_text, write_whole
 from magwire.navigate import Schedule
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ def read_schedule(path: str | Path) -> Schedule:
 
         return schedule_of(Result.load(path))
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = read_text(path)
     except OSError as error:
         reason = (error.strerror or "unknown reason").lower()
         raise InputError(f"Schedule file '{path}' cannot be read: {reason}.") from None
@@ -67,7 +67,7 @@ def write_schedule(schedule: Schedule, path: str | Path) -> Path:
     path = Path(path)
     rows = np.column_stack([schedule.feed, schedule.flux_density]).tolist()
     lines = [",".join(HEADER), *(",".join(map(repr, row)) for row in rows)]
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    write_whole(path, "\n".join(lines) + "\n")
     return path
 
 
@@ -137,7 +137,7 @@ def replayed(
     schedule = schedule_of(result).scaled(finite("replayed", "scale", scale))
     if resample is not None:
         schedule = schedule.resampled(positive("replayed", "resample", resample, "m"))
-    raw = tomllib.loads(result.scenario)
+    raw = parse_toml(result.scenario)
     raw["navigate"] = {"method": "schedule", "table": rows_of(schedule)}
     raw.setdefault("solver", {})["motion"] = "dynamic"  # where a schedule proves itself (P-23)
     return parse(tomli_w.dumps(raw), overrides, source="of the result")

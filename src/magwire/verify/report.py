@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 
 import magwire
 from magwire.errors import InputError
+from magwire.files import write_whole
 from magwire.verify.evidence import NODES, Curve, Line, Raised, Skipped, Verdict
 
 if TYPE_CHECKING:
@@ -287,5 +288,5 @@ def save(report: Report, folder: Path) -> list[Path]:
 
     contents = {"verify.html": to_html(report), "verify.json": to_json(report)}
     for name, text in contents.items():
-        (folder / name).write_text(text, encoding="utf-8")
+        write_whole(folder / name, text)
     return [folder / name for name in contents]

@@ -19,6 +19,7 @@ BRIDGED = 2.0  # largest gap between a line's end and another line, over the rad
 NOTED = 0.5  # gap that is worth a word, over the radius
 POINTING = 8  # points by which an end of a line points
 PIECES = 200  # disconnected pieces that are looked at
+MOST_PAIRS = 5_000_000  # of points of lines that run along each other
 
 
 def merged(points: Array, radius: Array, owner: Indices) -> tuple[Indices, list[str]]:
@@ -50,14 +51,18 @@ def _close_pairs(points: Array, radius: Array) -> tuple[Indices, Indices, Array]
     Points are as dense as their radius is small, so that radii are compared an octave at a time.
     """
     octave = np.floor(np.log2(radius / radius.min())).astype(np.int64)
-    parts = []
+    parts, count = [], 0
     for k in np.unique(octave):
         these, others = np.flatnonzero(octave == k), np.flatnonzero(octave >= k)
-        found = KDTree(points[these]).sparse_distance_matrix(
-            KDTree(points[others]),
-            MERGED * 2.0 ** (float(k) + 1.0) * float(radius.min()),
-            output_type="ndarray",
-        )
+        tree, other = KDTree(points[these]), KDTree(points[others])
+        reach = MERGED * 2.0 ** (float(k) + 1.0) * float(radius.min())
+        count += int(tree.count_neighbors(other, reach))
+        if count > MOST_PAIRS:
+            raise FileFaultError(
+                "has too many lines that run along each other: more than "
+                f"{MOST_PAIRS} pairs of points are within {MERGED:g} radii"
+            )
+        found = tree.sparse_distance_matrix(other, reach, output_type="ndarray")
         parts.append(np.column_stack([these[found["i"]], others[found["j"]], found["v"]]))
     pairs = np.concatenate(parts)
     a, b = pairs[:, 0].astype(np.int64), pairs[:, 1].astype(np.int64)

@@ -21,6 +21,7 @@ UNLIKE = 1e4  # largest radius over the smallest
 CUT = 1.2  # how far from where a loop is cut its two sides end, over the radius
 LOOPS = 32  # that are opened; the arteries of a brain have fewer
 BETWEEN = 2  # balls between two points of a line, which are a tenth of a radius apart
+MOST_LINES = 3000  # of a real vessel there are some hundreds
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +65,10 @@ class Network:
         FileFaultError
             If they are in pieces that do not touch.
         """
+        if len(lines) > MOST_LINES:
+            raise FileFaultError(
+                f"has {len(lines)} lines from fork to fork; expected at most {MOST_LINES}"
+            )
         points = np.concatenate([line.points for line in lines])
         radius = np.concatenate([line.radius for line in lines])
         if radius.max() > UNLIKE * radius.min():

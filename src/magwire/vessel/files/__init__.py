@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from magwire.files import LARGEST_TEXT, read_bytes
 from magwire.vessel.files import (
     meshes,
     netcdf,
@@ -55,6 +56,8 @@ FORMATS: dict[str, Callable[[bytes, str | None], Drawing]] = {
 """Readers by the end of the file's name."""
 BRANCHES = (".mrk.json", ".vtp", ".vtk", ".csv", ".tsv", ".dat", ".swc", ".pth", ".tre")
 """Endings of files that are taken from a folder."""
+LARGE = (".vtp", ".vtk", ".stl", ".ply", ".obj")
+"""Those of surfaces; centrelines take less."""
 
 
 def load(source: str | Path | Sequence[str | Path], radius: str | None = None) -> Drawing:
@@ -118,10 +121,12 @@ def _single(place: Path, radius: str | None) -> Drawing:
         known = ", ".join(FORMATS)
         raise refuse(place, f"must have one of the endings {known}; received {place.suffix!r}")
     try:
-        if place.stat().st_size > LARGEST_FILE:
-            raise FileFaultError(f"is larger than {LARGEST_FILE / 1e6:.0f} MB")
+        if place.is_dir():
+            raise FileFaultError("is a folder")
+        most = LARGEST_FILE if place.suffix.lower() in LARGE else LARGEST_TEXT
+        data = read_bytes(place, most)
         with np.errstate(all="ignore"):
-            return checked(reader(place.read_bytes(), radius))
+            return checked(reader(data, radius))
     except OSError as error:
         reason = (error.strerror or "unknown reason").lower()
         raise refuse(place, f"cannot be read: {reason}") from None

@@ -14,9 +14,11 @@ from magwire.units import DIMENSIONS
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-LARGEST_FILE = 256_000_000
+LARGEST_FILE = 100_000_000
 """Bytes of a file, or of one of its arrays when unpacked, at most."""
 MOST_POINTS = 4_000_000
+MOST_CELLS = 2_000_000
+"""Lines and polygons of a VTK file, at most."""
 UNIT = re.compile(r"\s*[\[(]\s*(\w+)\s*[\])]\s*$")
 RADII = ("maximuminscribedsphereradius", "radius", "radii", "r")
 """Names of arrays that hold the radius, the first one found counts; case does not matter."""
@@ -80,6 +82,13 @@ class Drawing(NamedTuple):
     entrance: str = ""
     radius_unit: str | None = None
     notes: tuple[str, ...] = ()
+
+
+def may_be_radius(name: str, wanted: str | None) -> bool:
+    """Whether an array of this name could be picked as the radius."""
+    if wanted is not None:
+        return plain_name(name) == plain_name(wanted)
+    return plain_name(name).lower() in RADII or "radius" in name.lower()
 
 
 def pick_radius(names: tuple[str, ...], wanted: str | None) -> str | None:

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from scipy.io import netcdf_file
 
+from magwire.files import write_whole
 from magwire.vessel.files.drawing import Drawing, FileFaultError, Line
 
 
@@ -55,7 +56,9 @@ def write(path: Path, lines: Sequence[Line], ends: Sequence[str]) -> None:
     """
     points = np.concatenate([line.points for line in lines])
     owner = np.repeat(np.arange(len(lines), dtype=np.int32), [len(x.points) for x in lines])
-    with netcdf_file(path, "w") as file:
+    # In memory first: the library does not bear a full disk.
+    whole = io.BytesIO()
+    with netcdf_file(whole, "w") as file:
         file.ends = "\n".join(ends).encode()
         file.createDimension("points", len(points))
         file.createDimension("xyz", 3)
@@ -67,3 +70,6 @@ def write(path: Path, lines: Sequence[Line], ends: Sequence[str]) -> None:
             variable = file.createVariable(name, values.dtype.newbyteorder(">"), dims)
             variable[:] = values
             variable.units, variable.long_name = unit.encode(), text.encode()
+        file.flush()
+        data = whole.getvalue()  # closing the one closes the other
+    write_whole(path, data)

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import tomllib
-
 import numpy as np
 
 from magwire.errors import InputError
+from magwire.files import TextFaultError, parse_toml
 from magwire.units import parse
 from magwire.vessel.files.drawing import Drawing, FileFaultError, Line
 
@@ -24,12 +23,12 @@ def read(data: bytes, radius: str | None) -> Drawing:
         Not used: the radius has its column.
     """
     try:
-        branches = tomllib.loads(data.decode("utf-8-sig"))["lumen"]["branches"]
+        branches = parse_toml(data.decode("utf-8-sig"))["lumen"]["branches"]
         balls = {
             name: np.array([[parse(value, "length") for value in row] for row in rows])
             for name, rows in branches.items()
         }
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
+    except (TextFaultError, UnicodeDecodeError) as error:
         raise FileFaultError(f"is not valid TOML: {error}") from None
     except (KeyError, TypeError, AttributeError, ValueError) as error:
         why = str(error).rstrip(".") if isinstance(error, InputError) else ""

@@ -9,7 +9,14 @@ from urllib.parse import unquote
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.vessel.files.drawing import MOST_POINTS, Array, Drawing, FileFaultError, Indices
+from magwire.vessel.files.drawing import (
+    MOST_CELLS,
+    MOST_POINTS,
+    Array,
+    Drawing,
+    FileFaultError,
+    Indices,
+)
 from magwire.vessel.files.polydata import MARK, PolyData, drawn, texts
 
 TYPES = {
@@ -200,6 +207,8 @@ class _Contents:
 
     def _cells(self, count: int, size: int) -> list[Indices]:
         """Point indices of each cell, in the old layout or that of version 5."""
+        if not 0 <= count <= MOST_CELLS:
+            raise FileFaultError(f"has {count} cells; expected at most {MOST_CELLS}")
         before = self.source.place
         words = self.source.words()
         if words and words[0].upper() == "OFFSETS":

@@ -13,8 +13,17 @@ from xml.etree.ElementTree import Element
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.files import write_whole
 from magwire.vessel.files.arrays import Encoding
-from magwire.vessel.files.drawing import Array, Drawing, FileFaultError, Indices, Line
+from magwire.vessel.files.drawing import (
+    MOST_CELLS,
+    Array,
+    Drawing,
+    FileFaultError,
+    Indices,
+    Line,
+    may_be_radius,
+)
 from magwire.vessel.files.polydata import MARK, SPACE, PolyData, drawn, texts
 
 APPENDED = re.compile(rb'<AppendedData\b[^>]*?encoding\s*=\s*"(\w+)"[^>]*>\s*_')
@@ -67,7 +76,7 @@ def read(data: bytes, radius: str | None) -> Drawing:
         raise FileFaultError(f"is a VTK file of type {root.get('type')!r}; expected 'PolyData'")
     poly = PolyData.empty()._replace(fields=_fields(root, encoding))
     for piece in root.iterfind("PolyData/Piece"):
-        poly = poly.joined(_piece(piece, encoding))
+        poly = poly.joined(_piece(piece, encoding, radius))
     return drawn(poly, radius)
 
 
@@ -94,7 +103,7 @@ def write(path: Path, lines: Sequence[Line], ends: Sequence[str]) -> None:
         "offsets": _numbers(count),
     }
     head = {"mark": MARK, "n": len(points), "m": len(lines), "bytes": len(codes)}
-    path.write_text(TEMPLATE.format(**parts, **head), encoding="utf-8")
+    write_whole(path, TEMPLATE.format(**parts, **head))
 
 
 def _numbers(values: NDArray[Any]) -> str:
@@ -129,7 +138,7 @@ def _parse(data: bytes) -> tuple[Element, Encoding]:
     return root, Encoding.of(root, block, raw=raw)
 
 
-def _piece(piece: Element, encoding: Encoding) -> PolyData:
+def _piece(piece: Element, encoding: Encoding, radius: str | None) -> PolyData:
     points = piece.find("Points/DataArray")
     if points is None:
         raise FileFaultError("has no points")
@@ -138,10 +147,15 @@ def _piece(piece: Element, encoding: Encoding) -> PolyData:
         places = places.reshape(-1, 3) if places.size % 3 == 0 else np.zeros((0, 3))
     arrays: dict[str, Array] = {}
     for element in piece.iterfind("PointData/DataArray"):
-        if int(element.get("NumberOfComponents") or 1) == 1:
-            values = np.asarray(encoding.read(element), dtype=np.float64)
-            if len(values) == len(places):
-                arrays[element.get("Name", "")] = values
+        if element.get("NumberOfComponents") not in (None, "", "1"):
+            continue
+        name = element.get("Name", "")
+        if not may_be_radius(name, radius):  # known by its name only: unpacking may cost a lot
+            arrays[name] = np.broadcast_to(np.nan, len(places))
+            continue
+        values = np.asarray(encoding.read(element), dtype=np.float64)
+        if len(values) == len(places):
+            arrays[name] = values
     lines = _cells(piece.find("Lines"), encoding)
     polygons = _cells(piece.find("Polys"), encoding)
     return PolyData(places, arrays, lines, polygons, {})
@@ -156,6 +170,10 @@ def _cells(element: Element | None, encoding: Encoding) -> list[Indices]:
         return []
     connectivity = np.asarray(encoding.read(parts["connectivity"])).astype(np.int64)
     offsets = np.asarray(encoding.read(parts["offsets"])).astype(np.int64)
+    if len(offsets) > MOST_CELLS:
+        raise FileFaultError(
+            f"has {len(offsets)} cells, more than the {MOST_CELLS} that can be used"
+        )
     stops = np.concatenate([[0], offsets])
     if np.any(np.diff(stops) < 0) or stops[-1] > len(connectivity):
         raise FileFaultError(

@@ -1,0 +1,95 @@
+"""A result file read back, and checked before anybody counts on what is in it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from magwire.errors import ResultError
+from magwire.results.contract import CONSTANTS, DERIVED, VARIABLES, running_attributes
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+FIRST = (
+    "time", "feed", "position", "field", "contact_force", "clearance", "clearance_midpoint",
+    "tip_force", "tip_offset", "tip_departure", "newton_iterations", "stable", "wall_time",
+    "normalized_push", "normalized_field", "normalized_tip_force",
+)  # fmt: skip
+"""Variables that every result has; those that came later may be absent from older files."""
+LUMEN = ("centreline", "lumen_radius", "lumen_branch")
+KNOWN: dict[str, Any] = VARIABLES | DERIVED | CONSTANTS
+TEXTS = ("status", "message", "scenario", "motion")
+NUMBERS = (*running_attributes(None), "length_scale", "force_scale", "field_scale")
+PACKED = 1000
+"""What compression makes smaller at most, over what is stored."""
+
+
+def load(path: Path) -> xr.Dataset:
+    """The variables and attributes of a result file, all in memory.
+
+    Raises
+    ------
+    ResultError
+        If it is none, or damaged.
+    """
+    import h5py
+    import xarray as xr
+
+    if path.exists() and not path.is_file():  # reading a pipe may never end
+        raise ResultError(f"Result file '{path}' is no regular file.")
+    try:
+        if not h5py.is_hdf5(path):
+            raise OSError
+        with h5py.File(path) as file:
+            fault = _damage(file)
+        if not fault:
+            dataset = xr.load_dataset(path, engine="h5netcdf")
+            fault = _misfit(dataset)
+    except Exception as error:  # a damaged file may raise anything in there
+        raise ResultError(f"Result file '{path}' is not a readable NetCDF-4 file.") from error
+    if fault:
+        raise ResultError(f"File '{path}' {fault}.")
+    return dataset
+
+
+def _damage(file: Any) -> str:
+    """What is wrong with a file, found without reading its numbers; "" if nothing is."""
+    if "status" not in file.attrs or "time" not in file:
+        return "is not a result of magwire"
+    absent = [name for name in FIRST if name not in file]
+    absent += [name for name in (*TEXTS, *NUMBERS) if name not in file.attrs]
+    if absent:
+        return f"is damaged: it lacks {' and '.join(absent[:3])}"
+    for name in file:
+        held = file[name]
+        if name in KNOWN:
+            stored = held.id.get_storage_size() * (1 if held.compression is None else PACKED)
+            if held.size * held.dtype.itemsize > stored:
+                return f"is damaged: {name} claims {held.size} numbers, more than are stored"
+    return ""
+
+
+def _misfit(dataset: xr.Dataset) -> str:
+    """What does not fit together; "" if all does."""
+    for name, variable in dataset.variables.items():
+        wanted = KNOWN.get(str(name))
+        if wanted is None:
+            continue
+        if variable.dims != wanted.dims or variable.dtype.kind not in "fiu":
+            return f"is damaged: {name} must have numbers along {' and '.join(wanted.dims)}"
+    sizes = dataset.sizes
+    if sizes.get("xyz") != 3 or sizes.get("node", 0) < 2:
+        return f"is damaged: it has dimensions of {dict(sizes)}"
+    absent = [name for name in LUMEN if name not in dataset.variables]
+    if absent and len(absent) < len(LUMEN):  # none of them is there in open space
+        return f"is damaged: it lacks {' and '.join(absent)}"
+    if any(not isinstance(dataset.attrs[name], str) for name in TEXTS):
+        return f"is damaged: {' and '.join(TEXTS)} must be texts"
+    for name in NUMBERS:
+        given = np.asarray(dataset.attrs[name])
+        if given.size != 1 or given.dtype.kind not in "fiu":
+            return f"is damaged: {name} must be a number"
+    return ""

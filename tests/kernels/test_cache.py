@@ -1,0 +1,79 @@
+"""Where machine code is kept: in folders that nobody else can write to."""
+
+from __future__ import annotations
+
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+import pytest
+
+from magwire.kernels import _jit
+
+if sys.platform == "win32":
+    pytest.skip("folders of POSIX", allow_module_level=True)
+
+
+@pytest.fixture
+def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A machine without a home and without wishes; the folder for temporary files."""
+    for name in ("MAGWIRE_CACHE", "NUMBA_CACHE_DIR", "XDG_CACHE_HOME", "LOCALAPPDATA"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("HOME", "/proc/none")
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    return tmp_path
+
+
+def test_a_home_that_cannot_be_written_to(temporary: Path) -> None:
+    folder = _jit._cache_folder()
+    assert folder is not None
+    assert folder.parent == temporary / f"magwire-{os.getuid()}"
+    assert folder.parent.stat().st_mode & 0o777 == 0o700
+    assert _jit._cache_folder() == folder  # it serves the next process, too
+
+
+@pytest.mark.parametrize("how", ["open to others", "a link", "a file"])
+def test_a_folder_that_others_may_have_made_is_not_used(temporary: Path, how: str) -> None:
+    planted = temporary / f"magwire-{os.getuid()}"
+    if how == "open to others":
+        planted.mkdir()
+        planted.chmod(0o777)
+    elif how == "a link":
+        (temporary / "theirs").mkdir(mode=0o700)
+        planted.symlink_to(temporary / "theirs")
+    else:
+        planted.write_text("")
+    assert _jit._cache_folder() is None
+
+
+def test_no_home_at_all(temporary: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def homeless() -> Path:
+        raise RuntimeError("Could not determine home directory.")
+
+    monkeypatch.setattr(Path, "home", homeless)
+    folder = _jit._cache_folder()
+    assert folder is not None
+    assert folder.parent.name.startswith("magwire-")
+
+
+def test_the_hash_is_inside_of_what_a_site_sets(
+    temporary: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(temporary / "site"))
+    folder = _jit._cache_folder()
+    assert folder is not None
+    assert folder.parent == temporary / "site" / "magwire"
+    assert folder.name.startswith("kernels-")
+    monkeypatch.setenv("MAGWIRE_CACHE", str(temporary / "own"))
+    own = _jit._cache_folder()
+    assert own == temporary / "own" / folder.name
+
+
+def test_a_cache_that_cannot_be_written_to(
+    temporary: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("MAGWIRE_CACHE", "/proc/cache")
+    folder = _jit._cache_folder()
+    assert folder is not None
+    assert folder.parent.parent == temporary

@@ -1,0 +1,73 @@
+"""Texts and files that parsers stumble over: a sentence each, and no memory without end."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+import pytest
+
+from magwire.cli import main
+from magwire.errors import MagwireError
+from magwire.many.sweep import read as read_sweep
+from magwire.scenario import load, parse, read_schedule
+from magwire.units import parse as parse_quantity
+
+DIGITS, HEX = "9" * 5000, "0x" + "f" * 5000
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("a = " + "[" * 5000, "it is nested too deeply"),
+        (f"a = {DIGITS}", "integer string conversion"),
+        ("a = 1979-99-99", "not valid TOML"),
+        ("a = 1\nb", "not valid TOML"),
+        (f"[wire]\nnodes = {HEX}", "Input wire.nodes must be at most 100000; received a very long"),
+        (f"[wire]\nlength = {HEX}", "Input wire.length must be"),
+        (f'[wire]\nlength = "{DIGITS} mm"', "Input wire.length"),
+        ('[wire]\nlength = "1e99999999999999999999 mm"', "must be a finite number"),
+        (f"[solver]\ntolerance = {HEX}", "solver.tolerance"),
+    ],
+    ids=["nested", "digits", "date", "key", "nodes", "length", "text", "exponent", "unknown"],
+)
+def test_numbers_and_nesting_without_end(text: str, said: str) -> None:
+    with pytest.raises(MagwireError) as caught:
+        parse(text)
+    assert said in str(caught.value)
+    assert max(map(len, str(caught.value).splitlines())) < 700
+
+
+def test_an_exponent_beyond_decimal_numbers() -> None:
+    with pytest.raises(MagwireError, match="must be a finite number"):
+        parse_quantity("1e99999999999999999999 mm", "length")
+    assert parse_quantity("1e-99999999999999999999 mm", "length") == 0.0
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no pipes in folders")
+@pytest.mark.parametrize("reader", [load, read_schedule, read_sweep])
+def test_pipes_and_devices_are_refused(reader, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    os.mkfifo(tmp_path / "pipe.toml")
+    (tmp_path / "device.toml").symlink_to("/dev/zero")
+    for name in ("pipe.toml", "device.toml"):
+        with pytest.raises(MagwireError, match="it is no regular file"):
+            reader(tmp_path / name)
+    with pytest.raises(MagwireError, match="no regular file"):
+        load("half-circle", (f"lumen.file={tmp_path / 'pipe.toml'}", "lumen.shape=vessel"))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no pipes in folders")
+def test_a_pipe_is_no_result(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    os.mkfifo(tmp_path / "result.nc")
+    assert main(["plot", str(tmp_path)]) == 1
+    assert capsys.readouterr().err.endswith("is no regular file.\n")
+
+
+def test_titles_are_written_without_what_files_do_not_take(tmp_path: Path) -> None:
+    short = ("feed.distance=1 mm", "wire.nodes=24", "navigate.method=none")
+    scenario = load("straight", (*short, 'title="a\\u0000b\\nc $\\\\frac{"'))
+    result = scenario.run(tmp_path / "result.nc")
+    assert result.dataset.attrs["title"] == r"a b c $\frac{"
+    result.plot(tmp_path / "figure.svg")
+    assert "\x00" not in (tmp_path / "figure.svg").read_text()
