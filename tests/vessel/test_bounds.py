@@ -40,7 +40,7 @@ def test_many_lines_along_each_other_are_refused(tmp_path: Path) -> None:
 
 def test_a_radius_of_nearly_nothing_is_refused() -> None:
     with pytest.raises(InputError, match="radius of Branch must be at least"):
-        Vessel.read(CASES / "vessel-traceback-zerodivision.toml")
+        Vessel.read(CASES / "vessel-traceback-zerodivision.toml").lumen()
 
 
 def test_places_beyond_all_vessels_are_refused() -> None:

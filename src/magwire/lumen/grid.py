@@ -80,7 +80,7 @@ def build(branches: Sequence[Branch]) -> LumenArrays:
 
 
 def _table(branches: Sequence[Branch]) -> Array:
-    """One row per branch, columns as named in ``kernels.gap``."""
+    """One row per branch, columns as named in ``kernels.wall.gap``."""
     table = np.zeros((len(branches), COLUMNS))
     first = 0
     for row, branch in zip(table, branches, strict=True):
@@ -101,7 +101,7 @@ def _table(branches: Sequence[Branch]) -> Array:
 
 
 def _samples(branch: Branch, index: int) -> Array:
-    """Balls of a branch, denser where it is narrow: columns as named in ``kernels.seeds``."""
+    """Balls of a branch, denser where it is narrow: columns as named in ``kernels.wall.seeds``."""
     curve = branch.curve
     knots = np.linspace(0.0, curve.length, 2 * len(curve.coefficients) + 1)
     pace = DENSITY / curve.at(knots)[:, 3]
