@@ -63,8 +63,8 @@ strengths = np.array([0.25, 0.5, 1.0, 2.0, 4.0, 8.0])
 states = [simulation.equilibrium(feed=0.1, field=[0.0, b * unit_field, 0.0]) for b in strengths]
 
 # %%
-# The direction of the last edge is that of the wire half an edge before the tip. The curvature
-# vanishes at the tip, so that the difference is of second order in the edge length.
+# The direction of the tip against the closed form; what is left is of second order in the edge
+# length.
 
 expected = np.array([tip_angle(b) for b in strengths])
 tips = np.array([state.tip_direction for state in states])

@@ -32,12 +32,11 @@ tip = mw.Section(
 wire = mw.Wire((shaft, tip), nodes=121)
 
 # %%
-# The check, in open space. The direction of the last edge is that of the wire half an edge before
-# its end.
+# The check, in open space.
 
 free = mw.Simulation(wire, mw.Lumen.open_space()).equilibrium(feed=wire.length)
 turned = float(np.arccos(free.tip_direction[0]))
-expected = 20.0 * (tip.length - 0.5 * wire.edge_length)
+expected = 20.0 * tip.length
 print(f"tip turned by {np.degrees(turned):.2f} degrees, rest shape {np.degrees(expected):.2f}")
 
 # %%

@@ -247,7 +247,8 @@ def test_command_on_some_outlets_says_each_as_it_is_done(
     ahead = {p.outlet: p for p in mw.plan(FORK, WIRE, outlets=("thin",))}["thin"]
 
     def planned(lumen: mw.Lumen, wire: mw.Wire, *, outlets: tuple[str, ...], **_: object) -> list:  # type: ignore[type-arg]
-        done = (out / "plan.csv").read_text() if out.exists() else ""
+        table = out / "plan.csv"
+        done = table.read_text() if table.exists() else ""
         seen.append((capsys.readouterr().out, done))
         return [replace(ahead, outlet=name) for name in outlets]
 

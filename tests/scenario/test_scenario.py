@@ -155,7 +155,8 @@ def test_defaults_are_filled_in() -> None:
         """
     )
     assert scenario.contact.wall == "surface"
-    assert scenario.contact.stiffness == 1e3
+    assert scenario.contact.stiffness == "auto"
+    assert scenario.contact.activation_gap == "auto"
     assert scenario.field.flux_density == (0.0, 0.0, 0.0)
     assert scenario.solver.release == "sliding"
     assert scenario.environment.gravity == (0.0, 0.0, 0.0)

@@ -6,7 +6,7 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from magwire.cli.folders import occupied, writing_to
+from magwire.cli.folders import check_free, occupied, writing_to
 from magwire.cli.options import Flag
 from magwire.cli.reading import USUAL, Points, Reading, source_of
 from magwire.cli.words import CommandError, say, say_if_compiling
@@ -64,7 +64,8 @@ def plan_outlets(
         "magnetization": magnetization,
         "magnet": magnetized_tip,
     }
-    claim = nullcontext() if out is None else occupied(out, force=force)  # better before the work
+    if out is not None:  # better said before the work than after it
+        check_free(out, force=force)
     say_if_compiling()
     if len(sources) == 1 and (sources[0] in names() or Path(sources[0]).suffix == ".toml"):
         reading.refuse_any()
@@ -73,7 +74,7 @@ def plan_outlets(
     else:
         source = source_of(tuple(map(Path, sources)))
         work = commands.of_file(source, reading.units, words, reading.options())
-    with claim:
+    with nullcontext() if out is None else occupied(out, force=force):
         _carry_out(work, commands.outlets(work, target), out)
     return 0
 
