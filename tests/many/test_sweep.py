@@ -163,9 +163,13 @@ def test_only_complete_runs_count_as_clear(tmp_path: Path) -> None:
     from magwire.many.table import blank
 
     table = blank(read(written(tmp_path)))
-    table["contact_free"].values[:] = [1.0, 1.0, 0.0]
+    table["tip_contact_free"].values[:] = [1.0, 1.0, 0.0]
+    table["wire_contact_free"].values[:] = [0.0, 1.0, 0.0]
     table["status"].values[:] = ["complete", "not converged", "complete"]
-    assert any("in 1 of 2 complete runs" in line for line in lines(table))
+    tip, wire = lines(table)[2:4]
+    assert tip.split("  ")[0] == "tip clear throughout"
+    assert tip.endswith("in 1 of 2 complete runs")
+    assert wire.endswith("in 0 of 2 complete runs")
 
 
 def test_scenario_may_be_in_the_file(tmp_path: Path) -> None:
