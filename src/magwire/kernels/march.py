@@ -21,7 +21,8 @@ from magwire.kernels.wall.contact import add_walls
 from magwire.kernels.wall.push import press
 from magwire.kernels.wall.slide import slide
 
-RETRIES = 10  # a step may be cut in half this many times
+COARSE = 6  # a step may be cut in half this many times before its parts follow the wall
+RETRIES = 10  # and this many times in all
 
 
 class Plan(NamedTuple):
@@ -211,14 +212,16 @@ def march(model, guide, state, velocity, work, limits, plan, first, last, held, 
                     if len(plan.flux) > 0:
                         steer_field(model[1], plan, k, 0.0)
                     return k - first, entry, status
-                halvings += 1 if slides else 0
-                slides = True
+                if slides or halvings < begun + COARSE:
+                    halvings += 1
+                else:
+                    slides = True
                 tally.counts[3] += 1
                 continue
             accept(state, velocity, work, held, dt)
             touches = touches or nearest < inf
             done += share
-            if halvings > begun and done % (2.0 * share) == 0.0:
+            if slides and halvings > begun and done % (2.0 * share) == 0.0:
                 halvings -= 1
         tally.counts[0] += 1
         if touches:
