@@ -205,7 +205,7 @@ def test_command_on_a_scenario(
     monkeypatch.chdir(tmp_path)
     assert main(["plan", "straight", "--max-field", "20 mT", "--out", "out"]) == 0
     seen = capsys.readouterr().out
-    for words in ("tip force [mN]", "wire force [mN]", "on 5 mm [mN]", "push [mN]"):
+    for words in ("tip force [mN]", "wire force [mN]", "patch force [mN]", "push [mN]"):
         assert all(word in seen for word in words.split())
     assert "yes" in seen
     files = sorted(path.name for path in Path("out").iterdir())
