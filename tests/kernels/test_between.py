@@ -99,6 +99,26 @@ def test_no_point_of_a_coarse_wire_leaves_the_lumen() -> None:
     assert 0.0 < result.smallest_clearance < 1e-5
 
 
+def test_the_certificate_finds_the_nearest_point() -> None:
+    """As a search in steps of a two-hundredth of an edge does, to what it passes over at most."""
+    simulation = coarse(41)
+    result = simulation.run(mw.Feed(5e-3, 0.055), time_step=0.01, record_every=5e-3)
+    edge, lumen = simulation.system.wire.edge_length, simulation.system.lumen
+    t = np.linspace(0.0, 1.0, 201)[None, :, None]
+    passed_over = lumen.bulge(0.3e-3) * (edge / 24.0) ** 2 / 8.0
+    for nodes, known, found in zip(
+        result.position[1:],
+        result.clearance[1:],
+        result.dataset["clearance_along"].values[1:],
+        strict=True,
+    ):
+        held = int(np.flatnonzero(np.isfinite(known))[0]) - 1
+        x, y = nodes[held:-1, None], nodes[held + 1 :, None]
+        points = (x * (1.0 - t) + y * t).reshape(-1, 3)
+        least = float(lumen.gap(points).min()) - 0.3e-3
+        assert least - passed_over <= found <= least + passed_over
+
+
 def test_a_run_that_is_outside_is_not_complete(monkeypatch: pytest.MonkeyPatch) -> None:
     """With the points between the nodes switched off, the certificate still tells."""
     monkeypatch.setattr(mw.Lumen, "bulge", lambda self, inset: 0.0)

@@ -2,37 +2,48 @@
 
 from __future__ import annotations
 
-from math import inf
+from math import inf, sqrt
 
-from magwire.kernels._jit import kernel
+from magwire.kernels._jit import kernel, part
 from magwire.kernels.arrays import Motion
 from magwire.kernels.assembly import FIRST, assemble, clear
 from magwire.kernels.band import factor
-from magwire.kernels.vectors import combine, row
+from magwire.kernels.vectors import combine, dot, row, scale, sub
 from magwire.kernels.wall.contact import add_walls
-from magwire.kernels.wall.gap import gap_value
+from magwire.kernels.wall.gap import gap_jet, gap_value
 
 FINEST = 1.0 / 24.0  # part of an edge that the search for its nearest point passes over, at most
 
 
+@part
+def hop(lumen, x, t, offset, least):
+    """Clearance of a point, and how far along t no other has less than ``least``.
+
+    The point's ball is part of the lumen: g + rho - |x + s t - c| is what it leaves at s, with the
+    distance rho of the point from the ball's centre, which is at least the smallest radius less g.
+    Past an open end there is no such ball: the gap changes by no more than the way.
+    """
+    g, _, _, safe, n, _ = gap_jet(lumen, x[0], x[1], x[2])
+    if g == inf:
+        return inf, 0.0
+    d = g - offset
+    above = d - least
+    if above <= 0.0 or safe != g:
+        return d, max(above, 0.0)
+    rho = max(lumen.margin - g, 0.0)
+    slope = rho * dot(n, t)
+    return d, slope + sqrt(slope * slope + above * (above + 2.0 * rho))
+
+
 @kernel
 def nearest_on_edge(lumen, x, y, length, offset, least):
-    """Smallest clearance along an edge from x to y, or ``least`` if that is smaller.
-
-    The gap changes by no more than the way along the edge: a point whose clearance is larger than
-    the least one so far tells that its neighbours are no nearer to the wall than that.
-    """
+    """Smallest clearance along an edge from x to y, or ``least`` if that is smaller."""
+    t = scale(1.0 / length, sub(y, x))
     s = 0.0
     while s < 1.0:
-        here = combine(1.0 - s, x, s, y)
-        g, _, _, _ = gap_value(lumen, here[0], here[1], here[2])
-        d = g - offset
-        if d < inf:
-            ahead = (d - least) / length
-            least = min(least, d)
-        else:
-            ahead = 0.0
-        s += max(FINEST, ahead)
+        d, ahead = hop(lumen, combine(1.0 - s, x, s, y), t, offset, least)
+        least = min(least, d)
+        s += max(FINEST, ahead / length)
     return least
 
 
