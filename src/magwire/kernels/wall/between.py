@@ -19,7 +19,7 @@ from magwire.kernels.wall.push import push
 
 
 @kernel
-def margin(rod, between, j):
+def keep_off(rod, between, j):
     """What the wall keeps from the axis at the points of edge j, with their margin."""
     return max(rod.offset[j], rod.offset[j + 1]) + between.margin
 
@@ -54,7 +54,7 @@ def press_edge(rod, lumen, wall, state, j, gradient, band, r):
     energy = 0.0
     nearest = inf
     room = inf
-    offset = margin(rod, between, j)
+    offset = keep_off(rod, between, j)
     stiffness = between.stiffness * rod.rest[j] / between.parts
     for k in range(1, between.parts):
         s = k / between.parts

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from magwire.kernels._jit import kernel, part
 from magwire.kernels.vectors import combine, norm, row
-from magwire.kernels.wall.between import clear_edge, margin
+from magwire.kernels.wall.between import clear_edge, keep_off
 from magwire.kernels.wall.gap import gap_value
 from magwire.kernels.wall.push import clear_of_wall, query
 
@@ -35,18 +35,18 @@ def travel(lumen, x, dx, offset, known, jet, limit):
     if not (x[0] == known[0] and x[1] == known[1] and x[2] == known[2]):
         query(lumen, x, known, jet)
     start = free_way(jet[0], known[3], offset)
-    part = 0.0
+    share = 0.0
     free = start
     for _ in range(HOPS):
-        part += CAUTION * free / length
-        if part >= limit:
+        share += CAUTION * free / length
+        if share >= limit:
             return limit
-        here = combine(1.0, x, part, dx)
+        here = combine(1.0, x, share, dx)
         g, _, _, safe = gap_value(lumen, here[0], here[1], here[2])
         free = free_way(g, safe, offset)
         if free < CLOSEST * start:
-            return part
-    return part
+            return share
+    return share
 
 
 @part
@@ -61,7 +61,7 @@ def edge_part(rod, lumen, wall, q, step, j, r, limit, leeway):
     farthest = limit * max(norm(dx), norm(dy)) / CAUTION
     if clear_edge(between, q, j, farthest - between.gap):
         return limit
-    offset = margin(rod, between, j) - leeway
+    offset = keep_off(rod, between, j) - leeway
     for k in range(1, between.parts):
         s = k / between.parts
         here = combine(1.0 - s, x, s, y)
@@ -78,23 +78,23 @@ def allowed_part(rod, lumen, wall, q, step, held, leeway):
 
     leeway: how far into the wall the way may lead, of a step that is known to end inside.
     """
-    part = 1.0
+    share = 1.0
     nodes = q.shape[0]
     lead = 4 * (held - 1)
     for i in range(held + 1, nodes):
         r = 4 * i - lead
         x, dx = row(q, i), (step[r], step[r + 1], step[r + 2])
         offset = rod.offset[i] - leeway
-        if not clear_of_wall(x, wall.known[i], part * norm(dx) / CAUTION + offset):
-            part = travel(lumen, x, dx, offset, wall.known[i], wall.jet[i], part)
+        if not clear_of_wall(x, wall.known[i], share * norm(dx) / CAUTION + offset):
+            share = travel(lumen, x, dx, offset, wall.known[i], wall.jet[i], share)
     if wall.between.parts > 1:
         for j in range(held, nodes - 1):
-            part = edge_part(rod, lumen, wall, q, step, j, 4 * j - lead, part, leeway)
+            share = edge_part(rod, lumen, wall, q, step, j, 4 * j - lead, share, leeway)
     tube = wall.tube
     if tube.stiffness > 0.0 and held < nodes - 1:
         i = nodes - 1
         r = 4 * i - lead
         x, dx = row(q, i), (step[r], step[r + 1], step[r + 2])
-        if not clear_of_wall(x, tube.known[0], part * norm(dx) / CAUTION + tube.offset):
-            part = travel(tube.path, x, dx, tube.offset, tube.known[0], tube.jet[0], part)
-    return part
+        if not clear_of_wall(x, tube.known[0], share * norm(dx) / CAUTION + tube.offset):
+            share = travel(tube.path, x, dx, tube.offset, tube.known[0], tube.jet[0], share)
+    return share

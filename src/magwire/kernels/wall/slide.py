@@ -10,7 +10,7 @@ from math import inf
 
 from magwire.kernels._jit import kernel
 from magwire.kernels.vectors import combine, norm, row
-from magwire.kernels.wall.between import clear_edge, margin
+from magwire.kernels.wall.between import clear_edge, keep_off
 from magwire.kernels.wall.gap import gap_jet
 from magwire.kernels.wall.push import clear_of_wall, query
 
@@ -62,7 +62,7 @@ def slide(rod, lumen, wall, q, step, held, part, way):
         x, y = row(q, j), row(q, j + 1)
         if clear_edge(between, q, j, max(norm(dx), norm(dy)) - between.gap):
             continue
-        offset = margin(rod, between, j)
+        offset = keep_off(rod, between, j)
         for k in range(1, between.parts):
             s = k / between.parts
             here = combine(1.0 - s, x, s, y)
