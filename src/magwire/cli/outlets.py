@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from magwire.cli.folders import check_free, occupied, writing_to
 from magwire.cli.options import Flag
-from magwire.cli.reading import USUAL, Points, Reading, source_of
-from magwire.cli.words import CommandError, say, say_if_compiling
+from magwire.cli.reading import USUAL, Points, Reading, refuse, source_of
+from magwire.cli.words import say, say_if_compiling
 
 if TYPE_CHECKING:
     from magwire.plan_commands import Work
@@ -69,7 +69,13 @@ def plan_outlets(
     say_if_compiling()
     if len(sources) == 1 and (sources[0] in names() or Path(sources[0]).suffix == ".toml"):
         reading.refuse_any()
-        _refuse_any(words)
+        refuse(
+            {
+                "youngs-modulus": youngs_modulus,
+                "magnetization": magnetization,
+                "magnetized-tip": magnetized_tip,
+            }
+        )
         work = commands.of_scenario(load(sources[0]), words)
     else:
         source = source_of(tuple(map(Path, sources)))
@@ -77,18 +83,6 @@ def plan_outlets(
     with nullcontext() if out is None else occupied(out, force=force):
         _carry_out(work, commands.outlets(work, target), out)
     return 0
-
-
-def _refuse_any(words: dict[str, str | None]) -> None:
-    """Refuse options of a wire where a scenario has one."""
-    options = {
-        "modulus": "--youngs-modulus",
-        "magnetization": "--magnetization",
-        "magnet": "--magnetized-tip",
-    }
-    for name, option in options.items():
-        if words[name] is not None:
-            raise CommandError(f"Option {option} is for a vessel's file; received {words[name]!r}.")
 
 
 def _carry_out(work: Work, names: tuple[str, ...], out: Path | None) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -74,12 +75,15 @@ class Reading:
 
     def refuse_any(self) -> None:
         """Refuse what is given, where no vessel's file is read."""
-        for one in fields(self):
-            value = getattr(self, one.name)
-            if value != one.default:
-                raise CommandError(
-                    f"Option --{one.name} is for a vessel's file; received {value!r}."
-                )
+        values = {one.name: (getattr(self, one.name), one.default) for one in fields(self)}
+        refuse({name: value for name, (value, usual) in values.items() if value != usual})
+
+
+def refuse(given: Mapping[str, object]) -> None:
+    """Refuse options that have a value, where no vessel's file is read."""
+    for name, value in given.items():
+        if value is not None:
+            raise CommandError(f"Option --{name} is for a vessel's file; received {value!r}.")
 
 
 USUAL = Reading()
