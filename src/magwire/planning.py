@@ -212,7 +212,7 @@ def _prospect(
         flux_density=none,
         force=none,
     )
-    room = nothing.narrowest - (wire.radius if contact is None or contact.wall == "surface" else 0)
+    room = nothing.narrowest - (contact or Barrier()).keep_off(wire.radius)
     if room <= 0.0:
         return replace(
             nothing,

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 from magwire.errors import one_of, positive
 
 Auto = Literal["auto"]
+Radius = TypeVar("Radius", float, NDArray[np.float64])
 
 
 @dataclass(frozen=True)
@@ -38,3 +42,7 @@ class Barrier:
         if self.activation_gap != "auto":
             positive("Barrier", "activation_gap", self.activation_gap, "m")
         one_of("Barrier", "wall", self.wall, ("surface", "centreline"))
+
+    def keep_off(self, radius: Radius) -> Radius:
+        """What the wall keeps from the axis of a wire of some radius, or of several [m] (P-12)."""
+        return radius if self.wall == "surface" else 0.0 * radius

@@ -117,7 +117,7 @@ class System:
         pull = (mesh.mass - self.fluid_density * mesh.volume)[:, None] * np.array(self.gravity)
         pull[-1] += self.tip_load
         cell = np.diff(np.concatenate(([0.0], mesh.cell_end)))
-        radius = mesh.radius if self.contact.wall == "surface" else np.zeros_like(mesh.radius)
+        radius = self.contact.keep_off(mesh.radius)
         return Rod(
             station=_ghost(mesh.station, -mesh.edge_length[0]) / length,
             cell_end=_ghost(mesh.cell_end) / length,
@@ -156,7 +156,7 @@ class System:
     @property
     def keep_off(self) -> float:
         """What the wall keeps from the wire's axis, where the wire is widest [m] (P-12)."""
-        return self.wire.radius if self.contact.wall == "surface" else 0.0
+        return self.contact.keep_off(self.wire.radius)
 
     @cached_property
     def walls(self) -> LumenArrays:

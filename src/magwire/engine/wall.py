@@ -55,7 +55,7 @@ def fit(contact: Barrier, wire: Wire, path: Lumen) -> Firmness:
         )
     gap = contact.activation_gap
     if gap == "auto":
-        gap = ROOM * (path.narrowest - (wire.radius if contact.wall == "surface" else 0.0))
+        gap = ROOM * (path.narrowest - contact.keep_off(wire.radius))
     stiffness = contact.stiffness
     if stiffness == "auto":
         radius = min(path.branches[0].bend_radius().radius, LONGEST * wire.length)
