@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from magwire.engine.statics import Equilibrium
 from magwire.kernels.arrays import Motion, State
 from magwire.kernels.assembly import FIRST, assemble
-from magwire.kernels.newton import copy_state
+from magwire.kernels.history import copy_state
 
 Array = NDArray[np.float64]
 
@@ -48,7 +48,5 @@ def mass(state: Equilibrium) -> Array:
 def copy(state: Equilibrium) -> State:
     """A state that a test may change."""
     fresh = state.point.system.new_state()
-    copy_state(state.point.state, fresh, 1)
-    fresh.q[0] = state.point.state.q[0]
-    fresh.director[0] = state.point.state.director[0]
+    copy_state(state.point.state, fresh)
     return fresh

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.contact import Barrier
-from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
 from magwire.engine.record import Totals
 from magwire.engine.system import System
 from magwire.field import UniformField
 from magwire.lumen import Lumen
+from magwire.operate import March
 from magwire.simulation import Simulation
 from magwire.verify.wires import L, flux, free, magnet  # noqa: F401 - tests have them from here
 from magwire.wire import Wire
@@ -97,7 +97,7 @@ def passive(
     nearest = [record.clearance[np.isfinite(record.clearance)] for record in records]
     return Passive(
         system=system,
-        status=march.status.name if march.step == march.steps else "FAILED",
+        status=march.plant.status.name if march.step == march.steps else "FAILED",
         X=np.array([record.feed for record in records]) / L,
         F=np.array([record.tip_force for record in records]) / system.scales.force,
         positions=np.array([record.position for record in records]),
@@ -105,6 +105,6 @@ def passive(
         clearance=np.array([gaps.min() if len(gaps) else np.nan for gaps in nearest]),
         between=np.array([record.clearance_midpoint for record in records]),
         stable=np.array([record.stable for record in records]),
-        peak=march.totals.max_tip_force / system.scales.force,
-        totals=march.totals,
+        peak=march.plant.totals.max_tip_force / system.scales.force,
+        totals=march.plant.totals,
     )

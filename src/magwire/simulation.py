@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from magwire.contact import Barrier
-from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
 from magwire.engine.hold import Hold
 from magwire.engine.record import Motion, Record, RunInfo
@@ -21,7 +20,7 @@ from magwire.field import FieldSource, UniformField
 from magwire.interrupt import held_back_interrupt
 from magwire.lumen import Lumen
 from magwire.navigate import NavigationError, Navigator, Steering
-from magwire.navigate.steering import steered_records
+from magwire.operate import March, steered_records
 from magwire.wire import Wire
 
 if TYPE_CHECKING:
@@ -94,14 +93,19 @@ class Simulation:
             fluid_density=fluid_density,
             tip_load=(float(load[0]), float(load[1]), float(load[2])),
             release=release,
+            background=UniformField() if field is None else field,
         )
-        self.field: FieldSource = UniformField() if field is None else field
         narrowest = lumen.path().narrowest  # a side branch may be too narrow for the wire
         if narrowest <= self.system.keep_off:
             raise InputError(
                 f"Input wire of Simulation must be thinner than the lumen, whose smallest radius "
                 f"is {narrowest:.6g} m; received a wire radius of {wire.radius:.6g} m."
             )
+
+    @property
+    def field(self) -> FieldSource:
+        """The outside field."""
+        return self.system.background
 
     def run(
         self,
@@ -193,7 +197,8 @@ class Simulation:
                     if until is not None and self.tip_arc(record.position) >= until:
                         march.end()
                 converged = march.step == march.steps
-                message = " ".join([*getattr(navigator, "notes", ()), march.message]).strip()
+                said = march.plant.message
+                message = " ".join([*getattr(navigator, "notes", ()), said]).strip()
                 writer.close("complete" if converged else "not converged", message)
             except NavigationError as error:
                 writer.close("no field", str(error))

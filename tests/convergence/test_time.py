@@ -12,7 +12,7 @@ from magwire.engine.statics import Equilibrium
 from magwire.field import UniformField
 from magwire.kernels.arrays import State
 from magwire.kernels.frames import update_frames
-from magwire.kernels.march import Plan, Tally, march
+from magwire.kernels.march import Drive, Tally, march
 from magwire.verify.wires import order
 from tangent import copy, free_rows, mass, stiffness
 from wires import L, flux, free, magnet
@@ -29,21 +29,18 @@ def swing(
     state = system.new_state()
     for target, source in zip(state, start, strict=True):
         target[...] = source
-    feed = np.full(steps + 1, rest.feed / system.wire.length)
-    plan = Plan(feed, np.zeros(steps + 1), time / steps, damping, True)
+    state.velocity[:] = 0.0
+    feed = np.full(steps, rest.feed / system.wire.length)
+    drive = Drive(feed, np.zeros(steps), np.zeros((steps, 3)), time / steps, damping, True)
     samples = sample(system, UniformField((field[0], field[1], field[2])), state)
     model = (system.rod, samples, system.new_wall(), system.walls)
-    done, _, _ = march(
+    done, _ = march(
         model,
         system.guide,
         state,
-        np.zeros_like(state.q),
         system.new_work(),
         system.step_limits()._replace(tolerance=1e-8, step=0.0),
-        plan,
-        0,
-        steps,
-        rest.point.mouth.held,
+        drive,
         Tally(np.zeros(4), np.zeros(3)),
     )
     assert done == steps

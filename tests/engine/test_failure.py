@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from magwire.contact import Barrier
-from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
 from magwire.engine.status import Status
 from magwire.field import UniformField
+from magwire.operate import March
 from magwire.results import Result
 from magwire.simulation import Simulation
 from wires import lumen, paper_wire
@@ -52,14 +52,14 @@ def test_a_failed_step_leaves_no_trace() -> None:
     system = hopeless().system
     run = March(system, UniformField(), FEED, time_step=0.1)
     assert not run.advance(10**6)
-    assert run.status is not Status.CONVERGED
-    assert run.totals.retries == 11  # once along the wall, then ten halvings
-    assert run.totals.steps == run.step < run.steps
-    after = run.record()
+    assert run.plant.status is not Status.CONVERGED
+    assert run.plant.totals.retries == 11  # once along the wall, then ten halvings
+    assert run.plant.totals.steps == run.step < run.steps
+    after = run.plant.record()
 
     other = March(system, UniformField(), FEED, time_step=0.1)
     assert other.advance(run.step)
-    before = other.record()
+    before = other.plant.record()
     assert after.feed == before.feed
     np.testing.assert_array_equal(after.position, before.position)
     np.testing.assert_array_equal(after.contact_force, before.contact_force)
@@ -75,13 +75,15 @@ def test_a_step_that_feeds_several_edges_is_done_in_parts(time_step: float) -> N
         paper_wire(), lumen("half-circle"), contact=Barrier(1e3, 1e-4, wall="centreline")
     ).system
     large = March(system, UniformField(), Feed(1e-3, 0.05), time_step=time_step)
-    assert large.advance(10**6), large.message
-    assert large.totals.steps == round(50.0 / time_step)
-    assert large.totals.retries == 0
+    assert large.advance(10**6), large.plant.message
+    assert large.plant.totals.steps == round(50.0 / time_step)
+    assert large.plant.totals.retries == 0
     small = March(system, UniformField(), Feed(1e-3, 0.05), time_step=0.1)
     assert small.advance(10**6)
-    assert small.totals.retries == 0
-    np.testing.assert_allclose(large.record().position, small.record().position, atol=1e-4)
+    assert small.plant.totals.retries == 0
+    np.testing.assert_allclose(
+        large.plant.record().position, small.plant.record().position, atol=1e-4
+    )
 
 
 def test_every_status_has_a_remedy() -> None:

@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from magwire.contact import Barrier
-from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
 from magwire.engine.record import Record
 from magwire.engine.system import Release, System
 from magwire.field import FieldSource, UniformField
+from magwire.operate import March
 from wires import L, lumen, paper_wire
 
 Array = NDArray[np.float64]
@@ -69,7 +69,7 @@ def march(
     step = STEP if inertia else 5.0 * STEP
     run = March(system, field, feed, time_step=step, inertia=inertia)
     records = list(run.records(round(0.5 / step)))
-    assert run.step == run.steps, run.message
+    assert run.step == run.steps, run.plant.message
     return run, records
 
 
@@ -110,7 +110,7 @@ def test_retraction_goes_back_the_way_it_came(
         np.testing.assert_allclose(back.position, there.position, atol=close * L)
         assert np.all(np.isfinite(back.contact_force))
     last = records[-1]
-    guide = np.linspace(-L, 0.0, 100)[:, None] * run.system.lumen.direction
+    guide = np.linspace(-L, 0.0, 100)[:, None] * run.plant.system.lumen.direction
     np.testing.assert_allclose(last.position, guide, atol=1e-12)
     assert np.all(last.contact_force == 0.0)
     assert np.all(np.isnan(last.clearance))
@@ -137,7 +137,7 @@ def test_speed_as_a_function_of_time() -> None:
     varied = Feed.table([0.0, 10.0, 20.0, 35.0], [0.0, 2e-3, 1e-3, 2e-3 / 3.0])
     assert float(varied.at(35.0)) == pytest.approx(0.0375)
     run, records = march("half-circle", varied, UniformField())
-    assert run.totals.steps == 1750
+    assert run.plant.totals.steps == 1750
     feeds = np.array([record.feed for record in records])
     np.testing.assert_allclose(feeds, varied.at([record.time for record in records]), atol=1e-12)
     tips = np.array([record.position[-1] for record in records])

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
 from magwire.engine.statics import Equilibrium
 from magwire.errors import ConvergenceError
 from magwire.field import FieldSource, GradientField, UniformField
 from magwire.kernels.hinge import material_frame
+from magwire.operate import March
 from magwire.verify.references.dipole import Dipole
 from magwire.wire import Wire, lay_out
 from wires import L, free, paper_wire
@@ -103,8 +103,8 @@ def test_dynamics_arrive_at_the_equilibrium(source: Dipole) -> None:
     sim = free(wire(), damping=5.0)
     course = Feed.table([0.0, 2.0, 2.1, 8.0], [0.03, 0.03, 0.0, 0.0])
     march = March(sim.system, source, course, time_step=0.05)
-    assert march.advance(10**6), march.message
-    reached = march.record()
+    assert march.advance(10**6), march.plant.message
+    reached = march.plant.record()
     state = sim.equilibrium(reached.feed, source)
     np.testing.assert_allclose(reached.position, state.positions, atol=1e-4 * L)
     np.testing.assert_allclose(reached.flux_density, source.at(state.tip[None])[0][0], rtol=1e-3)
@@ -123,7 +123,7 @@ def test_an_affine_field_may_pretend_not_to_be() -> None:
     for source in (UniformField(field), Pretending(field)):
         march = March(free(paper_wire()).system, source, Feed(0.01, 0.05), time_step=0.02)
         assert march.advance(10**6)
-        runs.append(march.record())
+        runs.append(march.plant.record())
     np.testing.assert_allclose(runs[0].position, runs[1].position, atol=1e-9 * L)
     assert runs[0].totals.steps == runs[1].totals.steps
     assert runs[0].totals.newton_iterations == runs[1].totals.newton_iterations

@@ -8,10 +8,10 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 import magwire as mw
-from magwire.engine.dynamics import March
 from magwire.engine.system import System
 from magwire.field import UniformField
 from magwire.lumen import Lumen
+from magwire.operate import March
 from magwire.verify.wires import order
 from wires import L, flux, free, magnet
 
@@ -80,7 +80,7 @@ def test_a_march_tells_the_same_direction() -> None:
     march = March(system, UniformField(), mw.Feed(0.1 * L, L), time_step=0.1, inertia=False)
     assert march.advance(march.steps)
     expected = mw.Simulation(wire, Lumen.open_space()).equilibrium(L).tip_direction
-    np.testing.assert_allclose(march.tip()[1], expected, atol=1e-6)
+    np.testing.assert_allclose(march.plant.observe().tip_direction, expected, atol=1e-6)
 
 
 def test_dead_force_on_the_tip() -> None:

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from magwire.contact import Barrier
-from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
 from magwire.engine.system import System
 from magwire.field import UniformField
 from magwire.lumen import Lumen
+from magwire.operate import March
 from magwire.simulation import Simulation
 from magwire.wire import Wire
 from wires import L, flux, free, lumen, magnet, paper_wire
@@ -43,9 +43,9 @@ def test_turning_in_time_reaches_the_tip() -> None:
         [0.0, 0.0, 0.0, 4 * TURN, 4 * TURN],
     )
     run = March(system, UniformField(), course, time_step=0.02)
-    assert run.advance(10**6), run.message
-    run.record()
-    np.testing.assert_allclose(run._state.q[:-1, 3], 4.0 * TURN, atol=1e-4)
+    assert run.advance(10**6), run.plant.message
+    run.plant.record()
+    np.testing.assert_allclose(run.plant.state.q[:-1, 3], 4.0 * TURN, atol=1e-4)
 
 
 def test_the_tip_of_a_curved_wire_goes_round() -> None:
@@ -73,11 +73,11 @@ def test_many_turns_in_a_bend_stay_continuous() -> None:
     run = March(system, UniformField(), course, time_step=0.02)
     ends = {}
     while run.step < run.steps:
-        assert run.advance(25), run.message
-        ends[run.step * 0.02] = run.record().position[-1]
+        assert run.advance(25), run.plant.message
+        ends[run.step * 0.02] = run.plant.record().position[-1]
     # After whole turns the wire is back in its place: its twist went out through the tip.
     assert np.linalg.norm(ends[90.0] - ends[40.0]) < 2e-3 * L
-    material = run._state.q[:-1, 3]
+    material = run.plant.state.q[:-1, 3]
     assert material[0] == pytest.approx(3.0 * TURN)
     assert np.abs(material - 3.0 * TURN).max() < 0.5 * TURN
 

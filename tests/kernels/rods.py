@@ -62,6 +62,7 @@ def random_field(rng: np.random.Generator, edges: int, *, uniform: bool) -> Fiel
         gradient=rng.normal(size=(edges, 9)),
         origin=rng.normal(size=(edges, 3)),
         uniform=uniform,
+        steered=rng.normal(size=3),
     )
 
 

@@ -39,7 +39,7 @@ def test_force_of_the_tube_changes_as_differences_say() -> None:
     for axis in range(3):
         forces = []
         for sign in (1.0, -1.0):
-            assert model.settle(start.flux + sign * step * np.eye(3)[axis])
+            assert model.settle(start.inputs + sign * step * np.eye(3)[axis])
             forces.append(model.tube_force())
             model.return_to(start)
         difference = (forces[0] - forces[1]) / (2.0 * step)

@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from magwire.contact import Barrier
+from magwire.engine.sampling import sample
 from magwire.engine.system import System
-from magwire.kernels.arrays import Field, Motion, Mouth
+from magwire.field import UniformField
+from magwire.kernels.arrays import Motion, Mouth
 from magwire.kernels.assembly import assemble
 from magwire.lumen import Lumen
 from magwire.verify.wires import critical
@@ -64,7 +66,7 @@ def smallest_stiffness(angle: float, nodes: int) -> float:
     state.q[:, 0] = rod.station
     first, last = 1, nodes - 1  # the clamped edges
     state.q[:-1, 3] = angle * np.clip((np.arange(nodes) - first) / (last - first), 0.0, 1.0)
-    field = Field(np.zeros((nodes, 3)), np.zeros((nodes, 9)), np.zeros((nodes, 3)), True)
+    field = sample(system, UniformField(), state)
     model = (rod, field, system.new_wall(), system.walls)
     still = Motion(0.0, work.target)
     assemble(model, state, Mouth(1, 1.0), still, work.gradient, work.band)

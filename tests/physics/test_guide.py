@@ -7,12 +7,12 @@ import pytest
 from numpy.typing import NDArray
 
 from magwire.contact import Barrier
-from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
 from magwire.engine.system import System
 from magwire.field import GradientField, UniformField
 from magwire.kernels.hinge import material_frame
 from magwire.lumen import Lumen
+from magwire.operate import March
 from magwire.simulation import Simulation
 from magwire.wire import Wire, lay_out
 from wires import L, flux, lumen, paper_wire
@@ -84,15 +84,15 @@ def test_push_in_motion_is_what_all_else_leaves_and_what_accelerates_the_wire() 
     step = 1e-3
     march = March(system, GRADIENT, Feed(0.1, 0.05), time_step=step)
     march.advance(450)
-    records = [march.record()]
+    records = [march.plant.record()]
     for _ in range(2):
         assert march.advance(1)
-        records.append(march.record())
+        records.append(march.plant.record())
     last, axis = records[-1], system.guide.direction
     held = int(np.flatnonzero(np.isnan(last.clearance))[-1]) + 1  # the kernels count from a ghost
-    gradient = march._work.gradient
+    gradient = march.plant.work.gradient
     moving, _ = left_over(system, gradient, held)
-    force = loads(system, last.position, march._state, held)[0] + last.contact_force
+    force = loads(system, last.position, march.plant.state, held)[0] + last.contact_force
     size = np.linalg.norm(force, axis=1).sum()
     balance = last.push_force + (force.sum(axis=0) - moving.sum(axis=0)) @ axis
     assert balance == pytest.approx(0.0, abs=ROUND_OFF * size)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from magwire.bench.repeats import Sample, interleaved
-from magwire.engine.dynamics import March
+from magwire.operate import March
 from magwire.results import Result
 from magwire.scenario import load
 from magwire.scenario.job import Job
@@ -78,7 +78,7 @@ def step(case: Case, push: float) -> Sample:
     ready = time.perf_counter()
     converged = march.advance(march.steps)
     done = time.perf_counter()
-    totals = march.totals
+    totals = march.plant.totals
     return {
         "setup": ready - began,
         "seconds": done - ready,

@@ -35,7 +35,7 @@ def step(out: str) -> None:
     from magwire.cli import main
 
     mark("command line")
-    from magwire.engine.dynamics import March
+    from magwire.operate import March
 
     advance = March.advance
 

@@ -20,9 +20,9 @@ import numpy as np
 from magwire.bench import elastica_rod
 from magwire.bench.repeats import Sample, interleaved
 from magwire.contact import Barrier
-from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
 from magwire.lumen import Lumen
+from magwire.operate import March
 from magwire.simulation import Simulation
 from magwire.verify import mujoco_rod
 from magwire.verify.engines import settle

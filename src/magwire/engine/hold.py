@@ -22,6 +22,7 @@ from magwire.kernels.arrays import Field, Motion, Mouth, State, Work
 from magwire.kernels.assembly import FIRST, assemble
 from magwire.kernels.band import factor, solve
 from magwire.kernels.frames import update_frames
+from magwire.kernels.history import copy_configuration
 from magwire.kernels.newton import (
     ARMIJO,
     HALVINGS,
@@ -29,7 +30,6 @@ from magwire.kernels.newton import (
     SHIFT_GROWTH,
     SHIFTS,
     Limits,
-    copy_state,
     take_step,
 )
 from magwire.kernels.wall.collision import allowed_part
@@ -92,7 +92,7 @@ def carry(system: System, field: Field, state: State, mouth: Mouth, hold: Hold) 
     taken, size = 0, 0.0
     for k in range(1, steps + 1):
         part = k / steps
-        copy_state(state, base, mouth.held)
+        copy_configuration(state, base, mouth.held)
         state.q[-1, :3] = start + part * way
         state.q[-2, :3] = state.q[-1, :3] - edge * _turned(tangent, axis, part * angle)
         state.q[-2, 3] = turn + part * hold.turn
@@ -148,7 +148,7 @@ def _newton(
         slope = float(forces @ work.step[FIRST:last])
         share = allowed_part(model[0], model[3], model[2], state.q, work.step, held, 0.0)
         slack = ROUND_OFF * (1.0 + abs(energy))
-        copy_state(state, work.trial, held)
+        copy_configuration(state, work.trial, held)
         for _ in range(HALVINGS):
             take_step(work.trial, state, held, share, work.step)
             lower, _ = assemble(model, state, mouth, still, work.gradient, work.no_band)
@@ -156,7 +156,7 @@ def _newton(
                 break
             share *= 0.5
         else:
-            copy_state(work.trial, state, held)
+            copy_configuration(work.trial, state, held)
             return Status.STALLED, iteration, size
         energy, _ = assemble(model, state, mouth, still, work.gradient, work.band)
     return Status.TOO_MANY_ITERATIONS, limits.iterations, size

@@ -11,6 +11,14 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Motion = Literal["dynamic", "quasi-static"]
 
+PATCH = 5e-3  # length of wire over which forces are summed or averaged [m]
+EDGES = 2.0  # edges in a patch at least: forces are not known any finer
+
+
+def patch_length(length: float, nodes: int) -> float:
+    """Length over which forces on a wire of some length and nodes are summed [m]."""
+    return min(length, max(PATCH, EDGES * length / max(nodes - 1, 1)))
+
 
 @dataclass(frozen=True)
 class Scales:

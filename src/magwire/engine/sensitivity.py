@@ -67,7 +67,13 @@ def _loads(point: Point, wrt: Input) -> tuple[Array, tuple[int, ...], float]:
             unit[i, j] = 1.0
             here = _here(point.field, middle)
             fields.append(
-                Field(here + middle @ unit.T, point.field.gradient + unit.ravel(), middle, False)
+                Field(
+                    flux_density=here + middle @ unit.T,
+                    gradient=point.field.gradient + unit.ravel(),
+                    origin=middle,
+                    uniform=False,
+                    steered=point.field.steered,
+                )
             )
         return _differences(point, fields, work), (3, 3), 1.0 / system.wire.length
     if wrt != "feed" and wrt != "twist":

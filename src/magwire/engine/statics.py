@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.engine.hold import Hold, carry
+from magwire.engine.plant import Plant
 from magwire.engine.point import Point
 from magwire.engine.reaction import reaction
 from magwire.engine.sampling import sample, unsampled_stiffness
@@ -22,8 +23,8 @@ from magwire.field import FieldSource
 from magwire.kernels.arrays import Motion, Mouth, State, Work
 from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.hinge import transport
-from magwire.kernels.march import Plan, Tally, march
-from magwire.kernels.newton import copy_state, newton
+from magwire.kernels.history import copy_state
+from magwire.kernels.newton import newton
 from magwire.kernels.observe import observe
 
 Array = NDArray[np.float64]
@@ -140,6 +141,7 @@ def find_equilibrium(
     else:
         state = follow(system, source, start, part, twist)
     place_held(system.rod, system.guide, state, 0, held, part, twist)
+    state.guide[:], state.held[0] = (part, twist), held
     work = system.new_work()
     done = Settled(sample(system, source, state), "", 0, 0.0)
     if hold is not None:
@@ -226,42 +228,25 @@ def follow(
     system: System, source: FieldSource, start: Equilibrium, feed: float, twist: float
 ) -> State:
     """Feed the wire from an equilibrium on, by equilibria; feed in wire lengths."""
-    state = system.new_state()
-    copy_state(start.point.state, state, 1)
-    state.director[:1], state.q[:1] = start.point.state.director[:1], start.point.state.q[:1]
-    before = start.feed / system.wire.length
+    length = system.wire.length
+    plant = Plant(system, source)
+    copy_state(start.point.state, plant.state)
+    before = start.feed / length
     steps = math.ceil(abs(feed - before) / (0.5 * float(system.rod.rest.min())) - 1e-9)
-    plan = Plan(
-        feed=np.linspace(before, feed, steps + 1),
-        twist=np.linspace(start.twist, twist, steps + 1),
-        time_step=1.0,
-        damping=0.0,
-        inertia=False,
-    )
-    velocity, held = np.zeros_like(state.q), start.point.mouth.held
-    work, wall, tally = system.new_work(), system.new_wall(), Tally(np.zeros(4), np.zeros(3))
-    samples = sample(system, source, state)
-    for k in range(steps):
-        model = (system.rod, samples, wall, system.walls)
-        done, held, status = march(
-            model,
-            system.guide,
-            state,
-            velocity,
-            work,
-            system.step_limits(),
-            plan,
-            k,
-            k + 1,
-            held,
-            tally,
-        )
-        if done == 0:
-            reached = float(plan.feed[k]) * system.wire.length
-            raise _failure(system, reached, Status(status).remedy, state)
-        if not source.affine:
-            samples = sample(system, source, state)
-    return state
+    course = np.linspace(before, feed, steps + 1)[1:]
+    turns = np.linspace(start.twist, twist, steps + 1)[1:]
+    still = np.tile(plant.inputs, (steps, 1))
+    plant.sample_again()
+    done, status = 0, Status.CONVERGED
+    while done < steps and status == Status.CONVERGED:
+        some = slice(done, steps if source.affine else done + 1)
+        now, ended = plant.march(course[some], turns[some], still[some], 1.0, inertia=False)
+        done, status = done + now, Status(ended)
+        if not source.affine:  # to settle there comes after this
+            plant.sample_again()
+    if status != Status.CONVERGED:
+        raise _failure(system, plant.feed, status.remedy, plant.state)
+    return plant.state
 
 
 def _failure(system: System, feed: float, reason: str, state: State) -> ConvergenceError:

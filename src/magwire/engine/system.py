@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.contact import Barrier
-from magwire.engine.record import Scales
+from magwire.engine.record import Scales, patch_length
 from magwire.engine.wall import Firmness, divide, fit
 from magwire.errors import InputError, array, nonnegative, one_of
+from magwire.field import FieldSource, UniformField
 from magwire.kernels.arrays import Guide, Rod, State, Tube, Wall, Work
 from magwire.kernels.band import HALF_BANDWIDTH, WIDTH
 from magwire.kernels.centreline import LumenArrays
@@ -30,12 +31,13 @@ UNEVEN = 10.0  # ratio of bending stiffnesses from which on time steps, too, let
 SHARP_TOLERANCE = 1e-9  # force residual of an equilibrium, in EI/L^2
 ITERATIONS = 60  # of a time step
 MANY_ITERATIONS = 2000  # of an equilibrium, which may be far from its start
+NO_FIELD = UniformField()
 FIRST_SHIFT = 10.0  # first regularisation, in EI/(rho A L^4)
 
 
 @dataclass(frozen=True)
 class System:
-    """What is simulated, apart from feed and field.
+    """What is simulated, apart from what drives it.
 
     Parameters
     ----------
@@ -49,6 +51,8 @@ class System:
         Of what fills the lumen [kg/m^3]; its buoyancy acts against gravity.
     tip_load
         Dead force on the tip, fixed in space, shape (3,) [N].
+    background
+        The outside field that is there without any input.
     release
         ``"sliding"``: the bending element at the guide's mouth counts with the part that is past
         the entrance; ``"node"``: node by node, as in the paper (P-15).
@@ -62,6 +66,7 @@ class System:
     fluid_density: float = 0.0
     release: Release = "sliding"
     tip_load: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    background: FieldSource = NO_FIELD
 
     def __post_init__(self) -> None:
         nonnegative("Simulation", "damping", self.damping, "1/s")
@@ -193,6 +198,11 @@ class System:
         return fit(self.contact, self.wire, self.path)
 
     @cached_property
+    def patch(self) -> float:
+        """Length of wire over which forces are summed [m]."""
+        return patch_length(self.wire.length, self.wire.nodes)
+
+    @cached_property
     def bulge(self) -> float:
         """Largest curvature with which the wall bulges towards the wire's axis [1/m]."""
         return self.lumen.bulge(self.keep_off) if self.lumen.branches else 0.0
@@ -238,6 +248,10 @@ class System:
             length=self.rod.rest.copy(),
             director=np.tile(self.guide.director, (nodes - 1, 1)),
             twist=np.zeros(nodes),
+            velocity=np.zeros((nodes, 4)),
+            guide=np.zeros(2),
+            held=np.array([nodes - 1]),
+            inputs=np.zeros(3),
         )
 
     def new_work(self) -> Work:
@@ -254,7 +268,6 @@ class System:
             spare=self.new_state(),
             ahead=self.new_state(),
             before=self.new_state(),
-            pace=np.zeros((nodes, 4)),
             target=np.zeros((nodes, 4)),
         )
 

@@ -19,7 +19,8 @@ from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.field import FieldSource
 from magwire.kernels.arrays import Field, Motion, Mouth, State, Work
-from magwire.kernels.newton import Limits, copy_state, newton
+from magwire.kernels.history import copy_configuration
+from magwire.kernels.newton import Limits, newton
 
 Array = NDArray[np.float64]
 
@@ -59,7 +60,7 @@ def settle(system: System, source: FieldSource, state: State, mouth: Mouth, work
     samples = sample(system, source, state)
     pull, iterations, residual, before = 0.0, 0, np.inf, np.zeros_like(state.q)
     for _ in range(STEPS):
-        copy_state(state, base, held)
+        copy_configuration(state, base, held)
         work.target[:] = state.q
         model = (system.rod, samples, wall, system.walls)
         status, taken, _, residual, _ = newton(
@@ -72,7 +73,7 @@ def settle(system: System, source: FieldSource, state: State, mouth: Mouth, work
         if iterations > ITERATIONS:
             break
         if status != Status.CONVERGED or np.abs(way[:, :3]).max() > REACH:
-            copy_state(base, state, held)
+            copy_configuration(base, state, held)
             pull = max(FIRST * limits.shift, STRONGER * pull)
             continue
         used, samples = samples, sample(system, source, state)

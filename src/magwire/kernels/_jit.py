@@ -100,6 +100,13 @@ def part(function: Function) -> Function:
     return _compiled(function, inline="always")
 
 
+def entry(function: Function) -> Function:
+    """Compile what follows references to arrays and calls kernels; cached as they are."""
+    keep = CACHE is not None
+    made: Function = numba.njit(cache=keep, nogil=True, error_model="numpy")(function)
+    return made
+
+
 def _compiled(function: Function, **more: str) -> Function:
     keep = CACHE is not None
     made: Function = numba.njit(cache=keep, nogil=True, error_model="numpy", _nrt=False, **more)(

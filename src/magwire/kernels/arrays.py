@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from magwire.kernels.centreline import LumenArrays
 
 Array = NDArray[np.float64]
+Index = NDArray[np.int64]
 
 
 class Rod(NamedTuple):
@@ -52,12 +53,16 @@ class Guide(NamedTuple):
 
 
 class Field(NamedTuple):
-    """Field samples of each edge: B_0 [N, 3], gradient [N, 9] by rows, where sampled [N, 3]."""
+    """Field samples of each edge: B_0 [N, 3], gradient [N, 9] by rows, where sampled [N, 3].
+
+    steered [3]: what the actuator's inputs add, everywhere.
+    """
 
     flux_density: Array
     gradient: Array
     origin: Array
     uniform: bool
+    steered: Array
 
 
 class Tube(NamedTuple):
@@ -110,9 +115,12 @@ class Wall(NamedTuple):
 
 
 class State(NamedTuple):
-    """A configuration: q [N+1, 4] (x, y, z, theta), and what follows from it along its path.
+    """All that a wire carries from one step to the next.
 
-    tangent [N, 3], length [N], director [N, 3] (reference frame d1), twist [N+1] reference twist.
+    q [N+1, 4] configuration (x, y, z, theta), and what follows from it along its path: tangent
+    [N, 3], length [N], director [N, 3] (reference frame d1), twist [N+1] reference twist. velocity
+    [N+1, 4]; guide [2] insertion and twist of the guide; held [1] last node that the guide holds;
+    inputs [m] of the actuator.
     """
 
     q: Array
@@ -120,6 +128,10 @@ class State(NamedTuple):
     length: Array
     director: Array
     twist: Array
+    velocity: Array
+    guide: Array
+    held: Index
+    inputs: Array
 
 
 class Mouth(NamedTuple):
@@ -139,8 +151,8 @@ class Motion(NamedTuple):
 class Work(NamedTuple):
     """Scratch arrays of the solver, allocated once; ``no_band`` has no rows.
 
-    way: change of the unknowns in a step whose edges turn, laid out as ``step``. before,
-    pace [N+1, 4]: state and velocities at the start of a step that is cut.
+    way: change of the unknowns in a step whose edges turn, laid out as ``step``. before: state at
+    the start of a step that is cut.
     """
 
     gradient: Array
@@ -152,5 +164,4 @@ class Work(NamedTuple):
     spare: State
     ahead: State
     before: State
-    pace: Array
     target: Array

@@ -150,7 +150,8 @@ def _add_magnet(field, state, j, m, gradient, band, r):
     t = row(state.tangent, j)
     inv = 1.0 / state.length[j]
     m1, m2 = material_frame(row(state.director, j), t, state.q[j, 3])
-    b = row(field.flux_density, j)
+    steered = field.steered
+    b = add(row(field.flux_density, j), (steered[0], steered[1], steered[2]))
     if not field.uniform:
         middle = combine(0.5, row(state.q, j), 0.5, row(state.q, j + 1))
         away = sub(middle, row(field.origin, j))

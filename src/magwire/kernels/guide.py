@@ -47,19 +47,21 @@ def place_held(rod, guide, state, first, last, feed, twist):
 
 
 @kernel
-def change_held(rod, guide, state, velocity, before, held, drive):
+def change_held(rod, guide, state, held, moves):
     """Release nodes or take them back, so that ``held`` is the last held one.
 
-    drive = feed, twist, feed speed, twist speed of the guide.
+    moves = feed, twist, feed speed, twist speed of the guide.
     """
-    feed, twist, speed, turning = drive
+    feed, twist, speed, turning = moves
+    before = state.held[0]
+    state.held[0] = held
     if held < before:
         place_held(rod, guide, state, held - 1, before, feed, twist)
         for i in range(held, before + 1):
             for c in range(3):
-                velocity[i, c] = speed * guide.direction[c]
+                state.velocity[i, c] = speed * guide.direction[c]
             if i < before:
-                velocity[i, 3] = turning
+                state.velocity[i, 3] = turning
     elif held > before:
         tip = state.q.shape[0] - 1
         if held < tip:

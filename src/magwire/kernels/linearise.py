@@ -6,7 +6,7 @@ from math import sqrt
 from typing import NamedTuple
 
 from magwire.kernels._jit import kernel, part
-from magwire.kernels.arrays import Array, Field, Motion
+from magwire.kernels.arrays import Array, Motion
 from magwire.kernels.assembly import FIRST, assemble
 from magwire.kernels.band import WIDTH, factor, solve
 from magwire.kernels.hinge import material_frame
@@ -26,13 +26,12 @@ class Linear(NamedTuple):
     """Arrays for one linearisation, allocated once.
 
     moves [3, rows] change of the unknowns by each field component [1/T]; mode [rows] slowest mode;
-    slope [3] derivative of its eigenvalue by the field [rad^2/s^2 per T]; flux [N, 3] scratch.
+    slope [3] derivative of its eigenvalue by the field [rad^2/s^2 per T].
     """
 
     moves: Array
     mode: Array
     slope: Array
-    flux: Array
 
 
 @part
@@ -154,7 +153,7 @@ def linearise(model, state, mouth, work, linear):
     """
     if not respond(model, state, mouth, work, linear):
         return 0.0
-    rod, field, wall, lumen = model
+    rod, field, _, _ = model
     held = mouth.held
     still = Motion(0.0, work.target)
     last = 4 * (state.q.shape[0] - held + 1) - 1
@@ -170,13 +169,10 @@ def linearise(model, state, mouth, work, linear):
             for r in range(last + 1):
                 work.step[r] = linear.moves[axis, r] if FIRST <= r < last else 0.0
             take_step(state, work.spare, held, sign * probe, work.step)
-            for j in range(field.flux_density.shape[0]):
-                for c in range(3):
-                    linear.flux[j, c] = field.flux_density[j, c]
-                linear.flux[j, axis] += sign * probe
-            moved = Field(linear.flux, field.gradient, field.origin, field.uniform)
-            there = (rod, moved, wall, lumen)
-            assemble(there, work.spare, mouth, still, work.gradient, work.band)
+            steered = field.steered[axis]
+            field.steered[axis] += sign * probe
+            assemble(model, work.spare, mouth, still, work.gradient, work.band)
+            field.steered[axis] = steered
             slope += sign * quotient(work.band, linear.mode, last) / (2.0 * probe)
         linear.slope[axis] = slope
     return value

@@ -5,14 +5,13 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import NamedTuple
 
-import numpy as np
-
 from magwire.kernels._jit import kernel, part
 from magwire.kernels.arrays import Array, Motion, Mouth
 from magwire.kernels.assembly import clear
 from magwire.kernels.frames import update_frames
 from magwire.kernels.guide import change_held, find_mouth, place_held
-from magwire.kernels.newton import CONVERGED, Limits, copy_state, newton, take_step
+from magwire.kernels.history import copy_configuration, copy_state
+from magwire.kernels.newton import CONVERGED, Limits, newton, take_step
 from magwire.kernels.scatter import add_vector
 from magwire.kernels.vectors import dot, row
 from magwire.kernels.wall.between import press_edge
@@ -25,21 +24,19 @@ COARSE = 6  # a step may be cut in half this many times before its parts follow 
 RETRIES = 10  # and this many times in all
 
 
-class Plan(NamedTuple):
-    """Feed and twist of the guide at every step's end, shape [steps + 1] each; time step [s].
+class Drive(NamedTuple):
+    """Where guide and actuator are at the ends of the next steps.
 
-    Without inertia the steps are equilibria one after the other (P-16). flux [steps + 1, 3]: flux
-    density [T] on top of the field's samples at every step's end, none if it has no rows; steer
-    [3]: how much of it the samples hold at the moment.
+    feed, twist [k] insertion and twist of the guide; inputs [k, m] of the actuator; time_step [s];
+    damping [1/s]; inertia: without it the steps are equilibria one after the other (P-16).
     """
 
     feed: Array
     twist: Array
+    inputs: Array
     time_step: float
     damping: float
     inertia: bool
-    flux: Array = np.zeros((0, 3))
-    steer: Array = np.zeros(3)
 
 
 class Tally(NamedTuple):
@@ -81,7 +78,7 @@ def predict(rod, lumen, wall, state, velocity, held, dt, work, slides):
         energy, _ = add_walls(rod, lumen, wall, work.trial, held, work.gradient, work.no_band)
         way = allowed_part(rod, lumen, wall, state.q, work.way, held, wall.gap)
         if energy < inf and way == 1.0:
-            copy_state(work.trial, state, held)
+            copy_configuration(work.trial, state, held)
             return
     for i in range(held, state.q.shape[0]):
         for c in range(4):
@@ -89,82 +86,70 @@ def predict(rod, lumen, wall, state, velocity, held, dt, work, slides):
 
 
 @part
-def follow_tangents(state, velocity, held, speed):
+def follow_tangents(state, held, speed):
     """Velocities of a wire that slides along itself: the guess of quasi-static steps."""
     last = state.q.shape[0] - 1
     for i in range(held, last + 1):
-        velocity[i, 3] = 0.0
+        state.velocity[i, 3] = 0.0
         for c in range(3):
             ahead = state.tangent[min(i, last - 1), c]
-            velocity[i, c] = speed * 0.5 * (state.tangent[i - 1, c] + ahead)
+            state.velocity[i, c] = speed * 0.5 * (state.tangent[i - 1, c] + ahead)
 
 
 @part
-def time_step(model, guide, state, velocity, work, limits, slides, before, start, end, dt, plan):
+def time_step(model, guide, state, work, limits, slides, start, end, dt, drive):
     """One step into ``work.ahead`` (P-14, P-16); start, end: (feed, twist) of the guide.
 
     slides: whether the wire's way follows the wall where it meets it.
-    ``state`` changes only in what is held; returns how Newton ended and the last held node.
+    ``state`` changes only in what is held; returns how Newton ended.
     """
     rod, _, wall, lumen = model
     nodes = state.q.shape[0]
     held, fraction = find_mouth(rod, guide, end[0])
-    drive = (start[0], start[1], (end[0] - start[0]) / dt, (end[1] - start[1]) / dt)
-    change_held(rod, guide, state, velocity, before, held, drive)
-    copy_state(state, work.ahead, held)
+    moves = (start[0], start[1], (end[0] - start[0]) / dt, (end[1] - start[1]) / dt)
+    change_held(rod, guide, state, held, moves)
+    copy_configuration(state, work.ahead, held)
     if held == nodes - 1:
         place_held(rod, guide, work.ahead, 0, held, end[0], end[1])
-        return (CONVERGED, 0, 0, 0.0, inf), held
-    drag = 1.0 + plan.damping * dt
-    if not plan.inertia:
-        follow_tangents(state, velocity, held, drive[2])
+        return CONVERGED, 0, 0, 0.0, inf
+    drag = 1.0 + drive.damping * dt
+    if not drive.inertia:
+        follow_tangents(state, held, moves[2])
     for i in range(held, nodes):
         for c in range(4):
-            work.target[i, c] = state.q[i, c] + dt / drag * velocity[i, c]
-    predict(rod, lumen, wall, work.ahead, velocity, held, dt, work, slides)
+            work.target[i, c] = state.q[i, c] + dt / drag * state.velocity[i, c]
+    predict(rod, lumen, wall, work.ahead, state.velocity, held, dt, work, slides)
     place_held(rod, guide, work.ahead, held - 1, held, end[0], end[1])
     update_frames(state, work.ahead, held)
-    motion = Motion(drag / (dt * dt) if plan.inertia else 0.0, work.target)
-    mouth = Mouth(held, fraction)
+    motion = Motion(drag / (dt * dt) if drive.inertia else 0.0, work.target)
     limits = Limits(
         limits.tolerance, limits.iterations, limits.shift, limits.step, limits.turn, slides
     )
-    return newton(model, work.ahead, mouth, motion, work, limits), held
+    return newton(model, work.ahead, Mouth(held, fraction), motion, work, limits)
 
 
 @part
-def accept(state, velocity, work, held, dt):
-    """Take over the step in ``work.ahead`` and its velocities."""
+def accept(state, work, dt, end):
+    """Take over the step in ``work.ahead``: configuration, velocities, and where the guide is."""
+    held = state.held[0]
     for i in range(held, state.q.shape[0]):
         for c in range(4):
-            velocity[i, c] = (work.ahead.q[i, c] - state.q[i, c]) / dt
-    copy_state(work.ahead, state, held)
+            state.velocity[i, c] = (work.ahead.q[i, c] - state.q[i, c]) / dt
+    copy_configuration(work.ahead, state, held)
+    state.guide[0], state.guide[1] = end
 
 
 @kernel
-def copy_rows(source, target):
-    """Copy an array of rows of four."""
-    for i in range(source.shape[0]):
-        for c in range(4):
-            target[i, c] = source[i, c]
-
-
-@kernel
-def steer_field(field, plan, k, share):
-    """Bring the field's samples to what the plan wants at a part of step k."""
+def steer(field, inputs):
+    """Bring the field to the actuator's inputs."""
     for c in range(3):
-        wanted = (1.0 - share) * plan.flux[k, c] + share * plan.flux[k + 1, c]
-        change = wanted - plan.steer[c]
-        if change != 0.0:
-            for j in range(field.flux_density.shape[0]):
-                field.flux_density[j, c] += change
-            plan.steer[c] = wanted
+        field.steered[c] = inputs[c]
 
 
 @part
-def cuts_by_feed(rod, plan, k):
-    """How often step k is cut in half beforehand, so that no part feeds more than an edge."""
-    fed = abs(plan.feed[k + 1] - plan.feed[k])
+def cuts_by_feed(rod, fed):
+    """How often a step is cut in half beforehand, so that no part feeds more than an edge."""
+    fed = abs(fed)
     edge = rod.rest[rod.rest.shape[0] - 1]
     cuts = 0
     while fed > edge:
@@ -174,70 +159,72 @@ def cuts_by_feed(rod, plan, k):
 
 
 @kernel
-def march(model, guide, state, velocity, work, limits, plan, first, last, held, tally):
-    """Time steps first ... last - 1.
+def blend(start, end, share):
+    """What lies between the start and the end of a step, at a share of it: two numbers each."""
+    rest = 1.0 - share
+    return rest * start[0] + share * end[0], rest * start[1] + share * end[1]
+
+
+@kernel
+def march(model, guide, state, work, limits, drive, tally):
+    """Time steps along a drive, one after the other.
 
     A step that would feed more than an edge is done in parts. One that fails is cut in half a
     bounded number of times; if that does not help, the state is left as it was before the step.
 
-    Returns the steps done, the last held node and how the last step ended: plain numbers, since an
-    interrupt that arrives here would break the making of any other object.
+    Returns the steps done and how the last one ended: plain numbers, since an interrupt that
+    arrives here would break the making of any other object.
     """
-    for k in range(first, last):
-        entry = held
-        begun = cuts_by_feed(model[0], plan, k)
+    field = model[1]
+    steer(field, state.inputs)
+    for k in range(drive.feed.shape[0]):
+        entry = state.held[0]
+        first = state.guide[0], state.guide[1]
+        last = drive.feed[k], drive.twist[k]
+        begun = cuts_by_feed(model[0], last[0] - first[0])
         halvings = begun
         slides = False
         done = 0.0
         touches = False
         while done < 1.0:
             share = 0.5**halvings
-            start, end = moment(plan, k, done), moment(plan, k, done + share)
-            dt = share * plan.time_step
-            if len(plan.flux) > 0:
-                steer_field(model[1], plan, k, done + share)
-            outcome, held = time_step(
-                model, guide, state, velocity, work, limits, slides, held, start, end, dt, plan
+            end = blend(first, last, done + share)
+            dt = share * drive.time_step
+            for c in range(3):
+                rest = 1.0 - (done + share)
+                field.steered[c] = rest * state.inputs[c] + (done + share) * drive.inputs[k, c]
+            outcome = time_step(
+                model, guide, state, work, limits, slides, blend(first, last, done), end, dt, drive
             )
             status, iterations, factorisations, _, nearest = outcome
             tally.counts[1] += iterations
             tally.counts[2] += factorisations
             if status != CONVERGED:
                 if done == 0.0:
-                    copy_state(state, work.before, 1)
-                    copy_rows(velocity, work.pace)
+                    copy_state(state, work.before)
                 if slides and halvings == begun + RETRIES:
-                    copy_state(work.before, state, 1)
-                    copy_rows(work.pace, velocity)
-                    if len(plan.flux) > 0:
-                        steer_field(model[1], plan, k, 0.0)
-                    return k - first, entry, status
+                    copy_state(work.before, state)
+                    state.held[0] = entry
+                    steer(field, state.inputs)
+                    return k, status
                 if slides or halvings < begun + COARSE:
                     halvings += 1
                 else:
                     slides = True
                 tally.counts[3] += 1
                 continue
-            accept(state, velocity, work, held, dt)
+            accept(state, work, dt, end)
             touches = touches or nearest < inf
             done += share
             if slides and halvings > begun and done % (2.0 * share) == 0.0:
                 halvings -= 1
+        for c in range(state.inputs.shape[0]):
+            state.inputs[c] = drive.inputs[k, c]
         tally.counts[0] += 1
         if touches:
-            size = tip_force(model, state, held, work)
+            size = tip_force(model, state, state.held[0], work)
             tally.forces[0] = max(tally.forces[0], size)
             tally.forces[1] += size
             if tally.forces[2] < 0.0:
-                tally.forces[2] = plan.feed[k + 1]
-    return last - first, held, CONVERGED
-
-
-@kernel
-def moment(plan, k, part):
-    """Feed and twist of the guide at a part of step k."""
-    rest = 1.0 - part
-    return (
-        rest * plan.feed[k] + part * plan.feed[k + 1],
-        rest * plan.twist[k] + part * plan.twist[k + 1],
-    )
+                tally.forces[2] = drive.feed[k]
+    return drive.feed.shape[0], CONVERGED

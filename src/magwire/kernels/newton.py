@@ -9,6 +9,7 @@ from magwire.kernels._jit import kernel, part
 from magwire.kernels.assembly import FIRST, assemble
 from magwire.kernels.band import factor, solve
 from magwire.kernels.frames import update_frames
+from magwire.kernels.history import copy_configuration
 from magwire.kernels.vectors import combine, dot, norm, row, sub
 from magwire.kernels.wall.collision import allowed_part
 from magwire.kernels.wall.slide import slide
@@ -138,21 +139,6 @@ def turn_step(a, held, part, step, way):
 
 
 @kernel
-def copy_state(source, target, held):
-    """Copy what lies from the guide's last edge to the tip."""
-    nodes = source.q.shape[0]
-    for i in range(held - 1, nodes):
-        target.twist[i] = source.twist[i]
-        for c in range(4):
-            target.q[i, c] = source.q[i, c]
-        if i < nodes - 1:
-            target.length[i] = source.length[i]
-            for c in range(3):
-                target.tangent[i, c] = source.tangent[i, c]
-                target.director[i, c] = source.director[i, c]
-
-
-@kernel
 def longest(step, held, nodes):
     """Largest component of a step."""
     value = 0.0
@@ -212,7 +198,7 @@ def newton(model, state, mouth, motion, work, limits):
     """
     held = mouth.held
     a, b = work.trial, work.spare
-    copy_state(state, a, held)
+    copy_configuration(state, a, held)
     factorisations = 0
     iteration = 0
     energy, nearest, size = 0.0, inf, inf
@@ -249,5 +235,5 @@ def newton(model, state, mouth, motion, work, limits):
         small = min(limits.step, LAST * nearest)
         if share == 1.0 and size < inf and longest(work.step, held, a.q.shape[0]) < small:
             break
-    copy_state(a, state, held)
+    copy_configuration(a, state, held)
     return status, iteration, factorisations, size, nearest

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.engine.command import Drive
+from magwire.engine.plant import Plant, Snapshot
 from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.errors import InputError
-from magwire.kernels.arrays import Field, Motion, Mouth, State
-from magwire.kernels.guide import find_mouth, place_held
+from magwire.kernels.arrays import Motion
 from magwire.kernels.linearise import Linear, linearise, respond, tube_force
-from magwire.kernels.march import Plan, Tally, march
 from magwire.kernels.newton import newton
 from magwire.kernels.wall.gap import gap_value
 from magwire.lumen import Lumen
@@ -64,16 +64,6 @@ class View:
         return float(np.linalg.norm(self.offset))
 
 
-@dataclass(frozen=True)
-class Memory:
-    """What a model needs to go back to where it was."""
-
-    state: State
-    held: int
-    feed: float
-    flux: Array
-
-
 class Model:
     """A wire at equilibrium in a uniform field, fed and steered quasi-statically.
 
@@ -89,10 +79,6 @@ class Model:
 
     Attributes
     ----------
-    feed
-        Length of wire inside the lumen [m].
-    flux
-        Uniform flux density, shape (3,) [T].
     reach
         Length in which plans are measured [m]: that of twenty magnets, or of the wire if it is
         shorter. What the wire is longer plays no part at the tip.
@@ -108,34 +94,47 @@ class Model:
     def __init__(self, system: System, path: Lumen, tube_radius: float | None = None) -> None:
         if not system.scales.flux_density > 0.0:
             raise InputError("Input wire of a navigator must be magnetised; received none.")
+        if not system.background.affine:
+            raise InputError(
+                "Input field of a navigator's system must be uniform or linear in space; received "
+                f"{system.background!r}."
+            )
         self.system = system
         self.path = path
         magnets = sum(s.length for s in system.wire.sections if any(s.magnetization))
         self.reach = min(system.wire.length, MAGNETS * magnets)
-        self.feed = 0.0
-        self.flux: Array = np.zeros(3)
         self.solves = 0
-        self._state, self._work = system.new_state(), system.new_work()
         tube = None if tube_radius is None else system.new_tube(path, tube_radius)
-        self._wall, self._limits = system.new_wall(tube), system.step_limits()
-        self._velocity = np.zeros_like(self._state.q)
-        self._held = system.wire.nodes
+        self._plant = Plant(system, tube=tube)
+        self._limits = system.step_limits()
         self._tube = path.arrays(system.wire.length)
-        edges, rows = len(self._state.length), len(self._work.step)
-        self._field = Field(np.zeros((edges, 3)), np.zeros((edges, 9)), np.zeros((edges, 3)), True)
-        self._linear = Linear(np.zeros((3, rows)), np.ones(rows), np.zeros(3), np.zeros((edges, 3)))
-        place_held(system.rod, system.guide, self._state, 0, self._held, 0.0, 0.0)
+        rows = len(self._plant.work.step)
+        self._linear = Linear(np.zeros((3, rows)), np.ones(rows), np.zeros(3))
+
+    @property
+    def feed(self) -> float:
+        """Length of wire inside the lumen [m]."""
+        return self._plant.feed
+
+    @property
+    def flux(self) -> Array:
+        """Uniform flux density of the inputs, shape (3,) [T]."""
+        return self._plant.inputs
+
+    @flux.setter
+    def flux(self, flux: Array) -> None:
+        self._plant.inputs = flux
 
     @property
     def released(self) -> bool:
         """Whether any of the wire is free."""
-        return self._held < self.system.wire.nodes
+        return self._plant.released
 
     @property
     def near_wall(self) -> bool:
         """Whether the wall presses on the wire anywhere, or is about to."""
-        system = self.system
-        points = self._state.q[self._held + 1 :, :3] * system.wire.length
+        system, state = self.system, self._plant.state
+        points = state.q[state.held[0] + 1 :, :3] * system.wire.length
         if len(points) == 0:
             return False
         reach = system.keep_off + NEAR * system.firmness.activation_gap
@@ -143,33 +142,16 @@ class Model:
 
     def feed_to(self, feed: float) -> bool:
         """Feed the wire on (or back) in the field as it is; whether an equilibrium was found."""
-        length = self.system.wire.length
         edge = float(self.system.mesh.edge_length.min())
         steps = max(1, int(np.ceil(abs(feed - self.feed) / (0.5 * edge) - 1e-9)))
-        course = np.linspace(self.feed, feed, steps + 1) / length
-        plan = Plan(course, np.zeros(steps + 1), 1.0, 0.0, False)
-        return self._march(plan, 0, steps)
+        course = np.linspace(self.feed, feed, steps + 1)[1:]
+        still = np.tile(self.flux, (steps, 1))
+        return self._drive(Drive(course, np.zeros(steps), still, 1.0, inertia=False))
 
-    def _march(self, plan: Plan, first: int, last: int) -> bool:
-        """Do some steps of a plan; whether all of them converged."""
-        done, self._held, status = march(
-            self._model(),
-            self.system.guide,
-            self._state,
-            self._velocity,
-            self._work,
-            self._limits,
-            plan,
-            first,
-            last,
-            self._held,
-            Tally(np.zeros(4), np.zeros(3)),
-        )
-        self.solves += last - first
-        self.feed = float(plan.feed[first + done]) * self.system.wire.length
-        if len(plan.flux) > 0:
-            self.flux = plan.flux[first + done]
-        return bool(status == Status.CONVERGED)
+    def _drive(self, drive: Drive) -> bool:
+        """Do the steps of a drive; whether all of them converged."""
+        self.solves += len(drive.feed)
+        return self._plant.advance(drive) == len(drive.feed)
 
     def play(self, schedule: Schedule, speed: float, time_step: float) -> Iterator[float]:
         """Feed the wire on along a schedule with inertia, as the plant would.
@@ -182,21 +164,15 @@ class Model:
             Now and then the tip's distance from the centreline over the lumen's radius; infinity
             where a step did not converge.
         """
-        length, first, last = self.system.wire.length, self.feed, float(schedule.feed[-1])
+        first, last = self.feed, float(schedule.feed[-1])
         steps = max(1, int(np.ceil(abs(last - first) / (speed * time_step) - 1e-9)))
-        feeds = np.linspace(first, last, steps + 1)
-        plan = Plan(
-            feeds / length,
-            np.zeros(steps + 1),
-            time_step,
-            self.system.damping,
-            True,
-            schedule.at(feeds),
-            self.flux.copy(),
-        )
-        self._velocity[:] = 0.0
+        feeds = np.linspace(first, last, steps + 1)[1:]
+        inputs = schedule.at(feeds)
+        self._plant.state.velocity[:] = 0.0
         for step in range(0, steps, GLANCE):
-            good = self._march(plan, step, min(step + GLANCE, steps))
+            part = slice(step, step + GLANCE)
+            twist = np.zeros(len(feeds[part]))
+            good = self._drive(Drive(feeds[part], twist, inputs[part], time_step))
             _, offset, radius = self.tip()
             yield float(np.linalg.norm(offset)) / radius if good else float("inf")
 
@@ -214,11 +190,10 @@ class Model:
 
     def settle(self, flux: Array) -> bool:
         """Find the equilibrium in another field; if there is none, stay as before."""
-        before = self.remember()
+        before, plant = self.remember(), self._plant
         self.flux = np.asarray(flux, dtype=np.float64)
-        still = Motion(0.0, self._work.target)
-        mouth = self._mouth()
-        status = newton(self._model(), self._state, mouth, still, self._work, self._limits)[0]
+        still = Motion(0.0, plant.work.target)
+        status = newton(plant.model, plant.state, plant.mouth, still, plant.work, self._limits)[0]
         self.solves += 1
         if status != Status.CONVERGED:
             self.return_to(before)
@@ -227,8 +202,8 @@ class Model:
 
     def look(self) -> View | None:
         """The equilibrium to first order; None if it is unstable."""
-        mouth = self._mouth()
-        value = linearise(self._model(), self._state, mouth, self._work, self._linear)
+        plant = self._plant
+        value = linearise(plant.model, plant.state, plant.mouth, plant.work, self._linear)
         if not value > 0.0:
             return None
         axes, offset, radius = self.tip()
@@ -251,7 +226,7 @@ class Model:
             Two axes across the path, shape (2, 3); the tip's offset in them, shape (2,) [m]; the
             lumen's radius there [m].
         """
-        tip = self._state.q[-1, :3] * self.system.wire.length
+        tip = self._plant.state.q[-1, :3] * self.system.wire.length
         curve = self.path.branches[0].curve
         where = np.array([self.tip_arc()])
         centre, along = curve.at(where)[0], curve.at(where, 1)[0, :3]
@@ -261,7 +236,7 @@ class Model:
     def tip_arc(self) -> float:
         """How far along the path the tip is [m]."""
         length = self.system.wire.length
-        tip = self._state.q[-1, :3]
+        tip = self._plant.state.q[-1, :3]
         _, arc, branch, _ = gap_value(self._tube, *tip)
         if branch < 0:  # far off the path, as in another branch
             return float(self.path.locate(tip[None] * length)[0][0])
@@ -269,7 +244,7 @@ class Model:
 
     def expected_tip(self, feed: float) -> Array | None:
         """Position of the tip, shape (3,) [m], if the model is at this feed [m]; otherwise None."""
-        tip: Array = self._state.q[-1, :3] * self.system.wire.length
+        tip: Array = self._plant.state.q[-1, :3] * self.system.wire.length
         return tip if abs(self.feed - feed) < SAME else None
 
     def tube_force(self) -> Array:
@@ -282,43 +257,31 @@ class Model:
         Shapes (3,) and (3, 3) (P-19, P-21). At an unstable equilibrium the derivative is zero.
         """
         force, slope = self._tube_force()
-        stable = respond(self._model(), self._state, self._mouth(), self._work, self._linear)
+        plant = self._plant
+        stable = respond(plant.model, plant.state, plant.mouth, plant.work, self._linear)
         moves = self._tip_moves() if stable else np.zeros((3, 3))
         return force, slope @ moves
 
     def _tube_force(self) -> tuple[Array, Array]:
         """Force of the virtual tube, and its derivative by the tip's scaled position [N]."""
         force, slope = np.zeros(3), np.zeros((3, 3))
-        tube_force(self._model(), self._state, force, slope)
+        tube_force(self._plant.model, self._plant.state, force, slope)
         unit = self.system.scales.force
         return force * unit, slope * unit
 
     def _tip_moves(self) -> Array:
         """Change of the scaled tip position by the flux density [1/T], from the linearisation."""
-        last = 4 * (len(self._state.q) - self._held)
+        last = 4 * (len(self._plant.state.q) - int(self._plant.state.held[0]))
         moves: Array = self._linear.moves[:, last : last + 3].T
         return moves
 
-    def remember(self) -> Memory:
+    def remember(self) -> Snapshot:
         """What it takes to come back here."""
-        state = self.system.new_state()
-        for kept, value in zip(state, self._state, strict=True):
-            kept[:] = value
-        return Memory(state, self._held, self.feed, self.flux)
+        return self._plant.snapshot()
 
-    def return_to(self, memory: Memory) -> None:
+    def return_to(self, snapshot: Snapshot) -> None:
         """Come back to what was remembered."""
-        for value, kept in zip(self._state, memory.state, strict=True):
-            value[:] = kept
-        self._held, self.feed, self.flux = memory.held, memory.feed, memory.flux
-
-    def _mouth(self) -> Mouth:
-        part = self.feed / self.system.wire.length
-        return Mouth(*find_mouth(self.system.rod, self.system.guide, part))
-
-    def _model(self) -> tuple[object, ...]:
-        self._field.flux_density[:] = self.flux
-        return (self.system.rod, self._field, self._wall, self.system.walls)
+        self._plant.restore(snapshot)
 
 
 def across(direction: Array) -> Array:

@@ -121,7 +121,7 @@ class PaperNavigator(TubeNavigator):
         here = model.remember()
         columns = []
         for axis in np.eye(3):
-            if not model.settle(here.flux + step * axis):
+            if not model.settle(here.inputs + step * axis):
                 raise NavigationError(
                     f"At {model.feed * 1e3:.4g} mm of feed a difference of the field by "
                     f"{step * 1e3:.3g} mT has no equilibrium."

@@ -15,7 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.navigate.model import Memory, Model, View
+from magwire.engine.plant import Snapshot
+from magwire.navigate.model import Model, View
 from magwire.navigate.navigator import NavigationError
 from magwire.navigate.programme import Programme
 
@@ -49,20 +50,20 @@ class Knot:
     ----------
     feed
         Length of wire inside the lumen [m].
-    memory
+    snapshot
         Takes the model there.
     view
         The equilibrium; None before the wire is released.
     """
 
     feed: float
-    memory: Memory
+    snapshot: Snapshot
     view: View | None
 
     @property
     def flux(self) -> Array:
         """Weakest flux density, shape (3,) [T]."""
-        return self.memory.flux
+        return self.snapshot.inputs
 
 
 class Pilot:
@@ -118,7 +119,7 @@ class Pilot:
     def _step(self, last: Knot, feed: float) -> list[Knot]:
         """Feed the model on at once, after making it as stiff as it takes."""
         model, moved = self.model, abs(feed - last.feed)
-        model.return_to(last.memory)
+        model.return_to(last.snapshot)
         for _ in range(TRIES):
             try:
                 view = self._reach(feed, last, moved)
@@ -131,7 +132,7 @@ class Pilot:
             if last.view is None:
                 break
             self._margin = self._stiffer(last.view.eigenvalue)
-            model.return_to(last.memory)
+            model.return_to(last.snapshot)
             view = self._improve(last.view, last.flux, moved)
             last = Knot(last.feed, model.remember(), view)
         self.forget()
@@ -222,7 +223,7 @@ class Pilot:
         model, programme = self.model, self.programme
         stiffness, start = INERTIA * self._length / moved, self.model.remember()
         least = programme.merit(view, before, stiffness, self._margin)
-        there = model.look() if model.settle(start.flux + change) else None
+        there = model.look() if model.settle(start.inputs + change) else None
         for _ in range(BEYOND):
             if there is None:
                 break
@@ -260,7 +261,7 @@ class Pilot:
         merit = programme.merit(view, before, stiffness, self._margin)
         start, part = model.remember(), 1.0
         for _ in range(HALVINGS):
-            if model.settle(start.flux + part * change):
+            if model.settle(start.inputs + part * change):
                 there = model.look()
                 if there is not None:
                     new = programme.merit(there, before, stiffness, self._margin)

@@ -99,7 +99,7 @@ class StableNavigator:
         knot = next((knot for knot in self._knots if abs(knot.feed - feed) < CLOSE), None)
         if knot is None:
             return None
-        self.model.return_to(knot.memory)
+        self.model.return_to(knot.snapshot)
         self.model.settle(knot.flux / self.demands.weakening)
         return self.model.expected_tip(feed)
 
@@ -130,7 +130,7 @@ class StableNavigator:
 
     def _begin(self, knot: Knot, back: bool) -> None:
         """Plan anew from a knot on."""
-        self.model.return_to(knot.memory)
+        self.model.return_to(knot.snapshot)
         self._knots, self._back = [knot], back
         self._failure: NavigationError | None = None
         self._pilot.forget()
@@ -172,7 +172,7 @@ class StableNavigator:
 
     def _is_past_end(self, knot: Knot) -> bool:
         """Whether the tip has left the path, where there is no wall to keep it from."""
-        self.model.return_to(knot.memory)
+        self.model.return_to(knot.snapshot)
         return self.model.tip_arc() > self.model.path.branches[0].length
 
     def _reason(self, failure: NavigationError, last: Knot, feed: float) -> NavigationError:

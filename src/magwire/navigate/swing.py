@@ -115,7 +115,7 @@ class Swings:
         landings = [p for p in self._places(landing, COARSE, highest) if self.is_held(p.view)]
         found = []
         for place, aim in product(places, landings):
-            firm = replace(aim, memory=replace(aim.memory, flux=PRESS * aim.flux))
+            firm = replace(aim, snapshot=aim.snapshot.with_inputs(PRESS * aim.flux))
             rest = replace(firm, feed=firm.feed + LENGTH * length)
             largest = max(norm(place.flux), norm(firm.flux))
             if largest <= highest:
@@ -141,7 +141,7 @@ class Swings:
     def _follows(self, start: Knot, plan: Schedule) -> bool:
         """Whether the tip stays within bounds along a schedule, and the wire ends held."""
         model = self.model
-        model.return_to(start.memory)
+        model.return_to(start.snapshot)
         if not model.settle(plan.at(start.feed)[0]):
             return False
         if any(part > BOUND for part in model.play(plan, self.speed, STEP)):
@@ -179,7 +179,7 @@ class Swings:
         model, programme = self.model, self.programme
         margin = programme.demands.stability_margin
         bounds = TRUST * programme.unit * np.array([[-1.0] * 3, [1.0] * 3])
-        model.return_to(knot.memory)
+        model.return_to(knot.snapshot)
         view = knot.view
         assert view is not None
         for _ in range(PROGRAMMES):
@@ -205,7 +205,7 @@ class Swings:
         start = model.remember()
         least = min(0.4 * self.programme.demands.stability_margin, 0.9 * view.eigenvalue)
         for _ in range(HALVINGS):
-            if model.settle(start.flux + change):
+            if model.settle(start.inputs + change):
                 there = model.look()
                 if there is not None and there.eigenvalue > least:
                     return there

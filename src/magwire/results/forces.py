@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
+from magwire.engine.record import patch_length
+
 Array = NDArray[np.float64]
 
-PATCH = 5e-3  # length of wire over which forces are summed or averaged [m]
-EDGES = 2.0  # edges in a patch at least: forces are not known any finer
 SHARE = 0.95  # of the wall's force on the wire, which its contact length carries
 BINS = 5  # places of the way in a patch
 MOST_BINS = 400  # on the whole way
@@ -48,8 +48,7 @@ class Layout:
     @cached_property
     def patch(self) -> float:
         """Length over which forces are summed or averaged [m]."""
-        edge = self.length / max(self.nodes - 1, 1)
-        return min(self.length, max(PATCH, EDGES * edge))
+        return patch_length(self.length, self.nodes)
 
     @cached_property
     def station(self) -> Array:

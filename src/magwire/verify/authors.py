@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.contact import Barrier
-from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
 from magwire.engine.system import System
 from magwire.field import UniformField
 from magwire.lumen import Lumen
 from magwire.navigate.navigator import Observation
 from magwire.navigate.newton import NewtonNavigator
+from magwire.operate import March
 from magwire.published import curve
 from magwire.verify.evidence import NODES, Curve, Line
 from magwire.verify.references import hard_contact
@@ -64,7 +64,7 @@ class _Run:
         course = Feed(0.01 * L, (ENTRY + push) * L)
         march = March(_system(name, 5e-3), UniformField(), course, time_step=0.1, inertia=False)
         records = list(march.records(2))
-        scale = march.system.scales.force
+        scale = march.plant.system.scales.force
         return cls(
             np.array([record.feed for record in records]) / L - ENTRY,
             np.array([record.tip_force for record in records]) / scale,

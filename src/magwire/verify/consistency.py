@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from magwire.contact import Barrier
-from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
 from magwire.engine.sensitivity import Input
 from magwire.engine.statics import Equilibrium
 from magwire.field import FieldSource, GradientField, UniformField
 from magwire.lumen import Lumen
+from magwire.operate import March
 from magwire.simulation import Simulation
 from magwire.verify.evidence import NODES, Line
 from magwire.verify.reversal import reversed_differences
@@ -94,7 +94,7 @@ def _marches(full: bool) -> Iterator[Line]:
                 sim.system, UniformField(FLUX), Feed(1e-3, 0.045), time_step=0.05, inertia=inertia
             )
             march.advance(march.steps)
-            record = march.record()
+            record = march.plant.record()
             ends.append(record.position)
             forces.append(record.tip_force)
         case = f"{name}, pushed 0.45 L"

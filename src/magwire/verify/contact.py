@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from magwire.contact import Barrier
-from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
 from magwire.engine.statics import Equilibrium
 from magwire.field import FieldSource, GradientField, UniformField
 from magwire.lumen import Lumen
+from magwire.operate import March
 from magwire.simulation import Simulation
 from magwire.verify import tubes
 from magwire.verify.evidence import NODES, Curve, Line
@@ -185,7 +185,7 @@ def _peak(name: str, lumen: Lumen, expected: float, source: str) -> Line:
     march.advance(march.steps)
     return Line(
         GROUP, f"{name}, pushed 0.72 L", "largest force on the tip", "EI/L²", expected, source,
-        march.totals.max_tip_force / FORCE, 0.01, relative=True,
+        march.plant.totals.max_tip_force / FORCE, 0.01, relative=True,
     )  # fmt: skip
 
 

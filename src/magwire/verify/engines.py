@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.contact import Barrier
-from magwire.engine.dynamics import March
 from magwire.engine.feed import Feed
 from magwire.engine.sampling import sample
 from magwire.field import UniformField
-from magwire.kernels.march import Plan, Tally, march
+from magwire.kernels.march import Drive, Tally, march
 from magwire.lumen import Lumen
+from magwire.operate import March
 from magwire.simulation import Simulation
 from magwire.verify import mujoco_rod
 from magwire.verify.evidence import NODES, Curve, Line, Skipped
@@ -114,22 +114,19 @@ def settle(wire: Wire, flux: Array, step: float, duration: float) -> tuple[Array
     """
     sim = Simulation(wire, Lumen.open_space(), damping=mujoco_rod.DAMPING)
     system, rest = sim.system, sim.equilibrium(wire.length)
-    state, mouth = rest.point.state, rest.point.mouth
+    state = rest.point.state
     source = UniformField((float(flux[0]), float(flux[1]), float(flux[2])))
     model = (system.rod, sample(system, source, state), system.new_wall(), system.walls)
     steps = round(duration / step)
-    feed, twist = np.ones(steps + 1), np.zeros(steps + 1)
-    plan = Plan(feed, twist, step, system.damping, True)
-    velocity, work = np.zeros_like(state.q), system.new_work()
+    limits, work = system.step_limits(), system.new_work()
     tally = Tally(np.zeros(4), np.zeros(3))
     clock = time.perf_counter()
-    for first, last in ((0, 1), (1, steps)):  # the first step may have to read compiled code
-        if first == 1:
+    for count in (1, steps - 1):  # the first step may have to read compiled code
+        if count > 1:
             clock = time.perf_counter()
-        march(
-            model, system.guide, state, velocity, work, system.step_limits(), plan, first, last,
-            mouth.held, tally,
-        )  # fmt: skip
+        feed, still = np.ones(count), np.zeros((count, 3))
+        drive = Drive(feed, np.zeros(count), still, step, system.damping, True)
+        march(model, system.guide, state, work, limits, drive, tally)
     seconds = (time.perf_counter() - clock) / (steps - 1)
     if tally.counts[0] != steps:
         raise RuntimeError("magwire's cantilever did not come to its last step.")
@@ -152,8 +149,8 @@ def _push(feed: float) -> Iterator[Line | Curve]:
     begin[:, 1] = BEND * (1.0 - np.cos(angle))
     theirs = mujoco_rod.settle(model, duration, begin=begin)
     ours, steps, seconds = _pushed(length)
-    force = ours.system.scales.force
-    record = ours.record()
+    force = ours.plant.system.scales.force
+    record = ours.plant.record()
     source = (
         f"MuJoCo {version('mujoco')}, {nodes} nodes, let go in the bend, at rest after "
         f"{theirs.steps} steps of {step * 1e3:g} ms, {theirs.step_seconds * 1e6:.0f} µs each; "

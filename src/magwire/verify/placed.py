@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from magwire.engine.statics import Equilibrium
 from magwire.kernels.frames import update_frames
-from magwire.kernels.newton import copy_state
+from magwire.kernels.history import copy_state
 
 Array = NDArray[np.float64]
 
@@ -22,8 +22,7 @@ def placed(known: Equilibrium, positions: Array) -> Equilibrium:
     """
     point = known.point
     state, held = point.system.new_state(), point.mouth.held
-    copy_state(point.state, state, 1)
-    state.q[0], state.director[0] = point.state.q[0], point.state.director[0]
+    copy_state(point.state, state)
     state.q[held + 1 :, :3] = positions[held:] / point.system.wire.length
     update_frames(point.state, state, held)
     return replace(known, point=replace(point, state=state))

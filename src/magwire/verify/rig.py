@@ -17,11 +17,13 @@ from scipy.sparse.csgraph import reverse_cuthill_mckee
 from scipy.sparse.linalg import spsolve
 
 from magwire.contact import Barrier
+from magwire.engine.sampling import sample
 from magwire.engine.system import System
-from magwire.kernels.arrays import Field, Motion, Mouth, State
+from magwire.field import UniformField
+from magwire.kernels.arrays import Motion, Mouth, State
 from magwire.kernels.assembly import assemble
 from magwire.kernels.frames import update_frames
-from magwire.kernels.newton import copy_state
+from magwire.kernels.history import copy_configuration
 from magwire.lumen import Lumen
 from magwire.verify.wires import magnet
 
@@ -76,9 +78,7 @@ class Rig:
         self.state: State = self.system.new_state()
         self.modes = eye_array(4 * points, format="csc")
         self._work = self.system.new_work()
-        self._field = Field(
-            np.zeros((points - 1, 3)), np.zeros((points - 1, 9)), np.zeros((points - 1, 3)), True
-        )
+        self._field = sample(self.system, UniformField(), self.state)
         if ring:
             self._lay_ring()
         else:
@@ -140,7 +140,7 @@ class Rig:
     def move(self, q: Array) -> None:
         """Go to positions and angles of all points in one step, frames being carried along."""
         base = self.system.new_state()
-        copy_state(self.state, base, 1)
+        copy_configuration(self.state, base, 1)
         base.q[0], base.director[0] = self.state.q[0], self.state.director[0]
         base.tangent[0] = self.state.tangent[0]
         self.state.q[:] = q

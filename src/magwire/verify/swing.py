@@ -12,8 +12,9 @@ from magwire.engine.sampling import sample
 from magwire.engine.statics import Equilibrium
 from magwire.field import FieldSource
 from magwire.kernels.arrays import Work
-from magwire.kernels.march import Plan, Tally, march
-from magwire.kernels.newton import CONVERGED, copy_state
+from magwire.kernels.history import copy_state
+from magwire.kernels.march import Drive, Tally, march
+from magwire.kernels.newton import CONVERGED
 
 Array = NDArray[np.float64]
 
@@ -51,35 +52,34 @@ def let_go(start: Equilibrium, source: FieldSource, time_step: float, steps: int
     """
     system, mouth = start.point.system, start.point.mouth
     state = system.new_state()
-    copy_state(start.point.state, state, 1)
-    state.q[0], state.director[0] = start.point.state.q[0], start.point.state.director[0]
+    copy_state(start.point.state, state)
     feed = start.feed / system.wire.length
     point = Point(system, sample(system, source, state), state, mouth)
     model = (system.rod, point.field, system.new_wall(), system.walls)
-    plan = Plan(np.full(2, feed), np.full(2, start.twist), time_step, system.damping, True)
+    drive = Drive(
+        np.array([feed]), np.array([start.twist]), np.zeros((1, 3)), time_step, system.damping, True
+    )
     limits = system.step_limits()._replace(tolerance=1e-8, step=0.0)
-    velocity, work = np.zeros_like(state.q), system.new_work()
-    spare = system.new_work()
-    rows = [_row(point, velocity, spare)]
+    work, spare = system.new_work(), system.new_work()
+    rows = [_row(point, spare)]
     for _ in range(steps):
         tally = Tally(np.zeros(4), np.zeros(3))
-        _, _, status = march(
-            model, system.guide, state, velocity, work, limits, plan, 0, 1, mouth.held, tally
-        )
+        _, status = march(model, system.guide, state, work, limits, drive, tally)
         if status != CONVERGED or tally.counts[3] > 0:
             raise RuntimeError("A time step did not converge, or not in one piece.")
-        rows.append(_row(point, velocity, spare))
+        rows.append(_row(point, spare))
     columns: list[Array] = [np.array(column) for column in zip(*rows, strict=True)]
     time = time_step * np.arange(0.0, steps + 1.0)
     positions, velocities, energy, force = columns
     return Swing(time, positions, velocities, energy, force, mouth.held)
 
 
-def _row(point: Point, velocity: Array, work: Work) -> tuple[Array, Array, float, Array]:
+def _row(point: Point, work: Work) -> tuple[Array, Array, float, Array]:
     """Positions, velocities, energy and the guide's force at one time, in SI."""
     system, held = point.system, point.mouth.held
     length, force = system.wire.length, system.scales.force
     mass, inertia = system.mesh.mass[held:], system.mesh.axial_inertia[held - 1 :]
+    velocity = point.state.velocity
     speed = velocity[1:, :3] * length
     kinetic = 0.5 * float(mass @ (speed[held:] ** 2).sum(axis=1))
     kinetic += 0.5 * float(inertia @ velocity[held:-1, 3] ** 2)

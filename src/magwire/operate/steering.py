@@ -1,4 +1,4 @@
-"""A march with somebody at the helm."""
+"""A march that a navigator steers."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.engine.dynamics import March
 from magwire.engine.record import Record
-from magwire.navigate.navigator import NavigationError, Navigator, Observation
+from magwire.navigate import NavigationError, Navigator, Observation
+from magwire.operate.march import March
 
 Array = NDArray[np.float64]
 
@@ -66,14 +66,14 @@ def steered_records(
     NavigationError
         If the navigator finds no field.
     """
-    yield march.record()
-    goal = float(march.feeds(march.steps).max())
+    plant = march.plant
+    yield plant.record()
     seen, gone = observe(march), float("nan")
     while march.step < march.steps:
         if march.step % update == 0:
             feeds = march.feeds(march.step + update)
             speed = float(feeds[-1] - seen.feed) / (len(feeds) * march.time_step)
-            seen = replace(seen, goal=goal, speed=speed)
+            seen = replace(seen, goal=march.goal, speed=speed)
             try:
                 schedule = navigator.plan(seen, float(feeds[-1]))
             except NavigationError as failure:
@@ -88,7 +88,7 @@ def steered_records(
             seen = observe(march)
             gone = float(np.fmax(gone, departure(navigator, seen)))
         if march.step % every == 0 or march.step == march.steps or not converged:
-            yield replace(march.record(), tip_departure=gone)
+            yield replace(plant.record(), tip_departure=gone)
             gone = float("nan")
         if not converged:
             return
@@ -96,8 +96,8 @@ def steered_records(
 
 def observe(march: March) -> Observation:
     """What a navigator is told of the plant."""
-    position, direction = march.tip()
-    return Observation(march.feed, position, direction)
+    seen = march.plant.observe()
+    return Observation(seen.feed, seen.tip, seen.tip_direction)
 
 
 def departure(navigator: Navigator, seen: Observation) -> float:

@@ -1,0 +1,311 @@
+"""A wire in a lumen that is driven and watched, one time step after the other (P-14, P-15)."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magwire.engine.command import Drive
+from magwire.engine.observation import Observation
+from magwire.engine.reaction import reaction
+from magwire.engine.record import Record, Totals
+from magwire.engine.sampling import SAMPLINGS, mismatch, sample
+from magwire.engine.status import Status
+from magwire.engine.system import System
+from magwire.field import FieldSource
+from magwire.kernels.arrays import Field, Mouth, State, Tube
+from magwire.kernels.body import Parts, advance, look, make_body
+from magwire.kernels.glance import GLANCE
+from magwire.kernels.guide import find_mouth, place_held
+from magwire.kernels.history import copy_state
+from magwire.kernels.march import RETRIES, Tally, steer
+from magwire.kernels.newton import CONVERGED
+from magwire.kernels.observe import observe
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Snapshot:
+    """All that a plant needs to go on from where it was.
+
+    Attributes
+    ----------
+    feed, time
+        Length of wire past the entrance [m], and the plant's time [s], at that moment.
+    """
+
+    feed: float
+    time: float
+    state: State
+    tally: Tally
+
+    @property
+    def inputs(self) -> Array:
+        """Of the actuator at that moment, shape (m,)."""
+        return self.state.inputs
+
+    def with_inputs(self, inputs: Array) -> Snapshot:
+        """The same wire with other inputs: it is not at rest with them."""
+        return replace(self, state=self.state._replace(inputs=inputs.copy()))
+
+
+class Plant:
+    """A wire, a lumen, a field, and a guide that moves.
+
+    Parameters
+    ----------
+    system
+        Wire, lumen and wall.
+    source
+        The outside field, next to what the inputs make, a uniform flux density of three components
+        [T]; the system's own if left out.
+    feed, twist
+        Of the guide at the start [m, rad].
+    tube
+        A virtual tube around the centreline (P-19); none if left out.
+
+    Attributes
+    ----------
+    time
+        Simulated [s].
+    status, message
+        How the last step ended; what happened and what to try if it failed.
+    model, state, work
+        Of the wire, as the kernels hold them.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        source: FieldSource | None = None,
+        *,
+        feed: float = 0.0,
+        twist: float = 0.0,
+        tube: Tube | None = None,
+    ) -> None:
+        self.system = system
+        self.source = system.background if source is None else source
+        self.time = 0.0
+        self.status = Status.CONVERGED
+        self.message = ""
+        self.state = system.new_state()
+        self.state.guide[:] = feed / system.wire.length, twist
+        self.work = system.new_work()
+        self._wall = system.new_wall(tube)
+        self._tally = Tally(np.zeros(4), np.array([0.0, 0.0, -1.0]))
+        place_held(system.rod, system.guide, self.state, 0, system.wire.nodes, *self.state.guide)
+        self._field = sample(system, self.source, self.state)
+        self.model = (system.rod, self._field, self._wall, system.walls)
+        limits = system.step_limits()
+        self._tolerance = limits.tolerance
+        self._body = make_body(
+            Parts(self.model, system.guide, self.state, self.work, limits, self._tally)
+        )
+        self._patch = system.patch / system.wire.length
+        self._turn = tuple(system.mesh.rest_turn[-1].tolist())
+        self._seen = np.zeros(GLANCE)
+        self._counted = np.zeros(4)
+        self._clearance = float("inf")
+        self._began = time.perf_counter()
+        none = np.zeros(0)
+        self.march(none, none, np.zeros((0, len(self.inputs))), 1.0, inertia=True)  # compiles
+        self._began = time.perf_counter()
+
+    @property
+    def feed(self) -> float:
+        """Length of wire past the entrance [m]."""
+        return float(self.state.guide[0]) * self.system.wire.length
+
+    @property
+    def twist(self) -> float:
+        """Angle by which the guide has turned the wire about its axis [rad]."""
+        return float(self.state.guide[1])
+
+    @property
+    def inputs(self) -> Array:
+        """Of the actuator, as they are, shape (m,)."""
+        return self.state.inputs.copy()
+
+    @inputs.setter
+    def inputs(self, inputs: Array) -> None:
+        self.state.inputs[:] = inputs
+        steer(self._field, self.state.inputs)
+
+    @property
+    def released(self) -> bool:
+        """Whether any of the wire is free."""
+        return bool(self.state.held[0] < self.system.wire.nodes)
+
+    def advance(self, drive: Drive) -> int:
+        """Do the steps of a drive; how many of them converged before one did not.
+
+        A step that fails leaves the wire as it was before it; ``status`` and ``message`` tell why.
+        """
+        feed = drive.feed / self.system.wire.length
+        twist, inputs, dt = drive.twist, drive.inputs, drive.time_step
+        if self.source.affine:
+            done, status = self.march(feed, twist, inputs, dt, inertia=drive.inertia)
+        else:
+            done, status = 0, CONVERGED
+            while done < len(feed) and status == CONVERGED:
+                one = slice(done, done + 1)
+                now, status = self._one(feed[one], twist[one], inputs[one], dt, drive.inertia)
+                done += now
+        self.time += done * dt
+        self.status = Status(status)
+        self.message = ""
+        if status != CONVERGED:
+            self.message = (
+                f"The step to {float(drive.feed[done]) * 1e3:.4g} mm of feed did not "
+                f"converge, even when cut into {2**RETRIES} parts: {self.status.remedy}."
+            )
+        return done
+
+    def march(
+        self, feed: Array, twist: Array, inputs: Array, dt: float, *, inertia: bool
+    ) -> tuple[int, int]:
+        """Steps in the field as it is sampled; how many, and how the last one ended.
+
+        The feed is in wire lengths; otherwise see ``Drive``.
+        """
+        done, status = advance(self._body, feed, twist, inputs, dt, self.system.damping, inertia)
+        return int(done), int(status)
+
+    def _one(
+        self, feed: Array, twist: Array, inputs: Array, dt: float, inertia: bool
+    ) -> tuple[int, int]:
+        """One step in a field that is sampled until the wire stays where it was sampled."""
+        before = self.snapshot()
+        for _ in range(SAMPLINGS):
+            done, status = self.march(feed, twist, inputs, dt, inertia=inertia)
+            if status != CONVERGED:
+                return done, status
+            now = sample(self.system, self.source, self.state)
+            if mismatch(self.system, self._field, now, int(self.state.held[0])) <= self._tolerance:
+                return done, status
+            self._take_over(now)
+            iterations = self._tally.counts[1:].copy()
+            self.restore(before)
+            self._tally.counts[1:] = iterations
+        return 0, int(Status.TOO_MANY_ITERATIONS)
+
+    def sample_again(self) -> None:
+        """Sample the outside field where the wire is now."""
+        self._take_over(sample(self.system, self.source, self.state))
+
+    def _take_over(self, now: Field) -> None:
+        field = self._field
+        field.flux_density[:], field.gradient[:] = now.flux_density, now.gradient
+        field.origin[:] = now.origin
+
+    def observe(self) -> Observation:
+        """What can be seen of the wire now, without a record of all its nodes."""
+        seen, scales = self._seen, self.system.scales
+        look(self._body, self._patch, self._turn, seen)
+        tip, direction = seen[:3] * scales.length, seen[3:6].copy()
+        force, forces, patch, clearance = seen[6:].tolist()
+        return Observation(
+            self.time,
+            self.feed,
+            self.twist,
+            tip,
+            direction,
+            force * scales.force,
+            forces * scales.force,
+            patch * scales.force,
+            clearance * scales.length,
+            self.state.inputs.copy(),
+        )
+
+    @property
+    def stable(self) -> bool:
+        """Whether the tangent stiffness, without inertia, is positive definite (P-16)."""
+        nodes = len(self.state.q)
+        return bool(self._look_closely(np.zeros((nodes, 3)), np.zeros(nodes))[2])
+
+    def snapshot(self) -> Snapshot:
+        """What it takes to come back here."""
+        state = self.system.new_state()
+        copy_state(self.state, state)
+        tally = Tally(*(kept.copy() for kept in self._tally))
+        return Snapshot(self.feed, self.time, state, tally)
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Come back to a snapshot of this plant, or of another one of the same system."""
+        copy_state(snapshot.state, self.state)
+        for value, kept in zip(self._tally, snapshot.tally, strict=True):
+            value[:] = kept
+        self.time = snapshot.time
+        self.status, self.message = Status.CONVERGED, ""
+        steer(self._field, self.state.inputs)
+
+    @property
+    def mouth(self) -> Mouth:
+        """Where the guide ends."""
+        return Mouth(*find_mouth(self.system.rod, self.system.guide, self.state.guide[0]))
+
+    def _look_closely(self, forces: Array, clearance: Array) -> tuple[float, float, bool]:
+        """Put what the guide holds in its place, and see what a record holds."""
+        system, state, mouth = self.system, self.state, self.mouth
+        place_held(system.rod, system.guide, state, 0, mouth.held, *state.guide)
+        found: tuple[float, float, bool] = observe(
+            self.model, state, mouth, self.work, forces, clearance
+        )
+        return found
+
+    @property
+    def totals(self) -> Totals:
+        """Sums over all steps so far."""
+        counts, forces = self._tally
+        scales = self.system.scales
+        steps = int(counts[0])
+        return Totals(
+            max_tip_force=float(forces[0]) * scales.force,
+            mean_tip_force=float(forces[1]) / max(steps, 1) * scales.force,
+            first_contact_feed=float(forces[2]) * scales.length if forces[2] >= 0 else float("nan"),
+            smallest_clearance=self._clearance,
+            steps=steps,
+            newton_iterations=int(counts[1]),
+            factorisations=int(counts[2]),
+            retries=int(counts[3]),
+            wall_time=time.perf_counter() - self._began,
+        )
+
+    def record(self) -> Record:
+        """The state as it is now."""
+        system, state = self.system, self.state
+        scales = system.scales
+        nodes = len(state.q)
+        forces, clearance = np.zeros((nodes, 3)), np.zeros(nodes)
+        middle, along, stable = self._look_closely(forces, clearance)
+        mouth = self.mouth
+        push, torque = reaction(system, mouth, self.work.gradient)
+        clearance[: mouth.held + 1] = np.nan
+        if mouth.held < nodes - 1:
+            self._clearance = min(self._clearance, along * scales.length)
+        counts = self._tally.counts
+        new_steps = counts[0] - self._counted[0]
+        iterations = (counts[1] - self._counted[1]) / new_steps if new_steps > 0 else 0.0
+        self._counted = counts.copy()
+        tip = state.q[-1:, :3] * scales.length
+        return Record(
+            time=self.time,
+            feed=self.feed,
+            position=state.q[1:, :3] * scales.length,
+            flux_density=self.source.at(tip)[0][0] + state.inputs,
+            contact_force=forces[1:] * scales.force,
+            clearance=clearance[1:] * scales.length,
+            clearance_midpoint=middle * scales.length if np.isfinite(middle) else float("nan"),
+            clearance_along=along * scales.length if np.isfinite(along) else float("nan"),
+            tip_force=float(np.linalg.norm(forces[-1])) * scales.force,
+            tip_offset=float(system.path.offset(tip)[0]),
+            push_force=push,
+            guide_torque=torque,
+            newton_iterations=float(iterations),
+            stable=bool(stable),
+            totals=self.totals,
+        )

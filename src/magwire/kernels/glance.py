@@ -1,0 +1,102 @@
+"""What an observer sees of a moving wire at once, without a record of all its nodes."""
+
+from __future__ import annotations
+
+from math import cos, inf, sin, sqrt
+
+from magwire.kernels._jit import kernel, part
+from magwire.kernels.assembly import clear
+from magwire.kernels.hinge import material_frame
+from magwire.kernels.vectors import combine, dot, norm, row, scale, sub
+from magwire.kernels.wall.contact import add_walls
+from magwire.kernels.wall.push import query
+
+GLANCE = 10
+"""Numbers of a glance: tip (3), its direction (3), force on the tip, forces of the wall summed over
+the wire, the largest of them over a patch, smallest clearance of the nodes."""
+
+
+@kernel
+def tip_direction(state, turn):
+    """Unit tangent at the very tip, half an edge past where the last edge is seen.
+
+    turn: rest curvature of the half cell before the tip, integrated; a free end bends no other way.
+    """
+    last = state.length.shape[0] - 1
+    edge = sub(row(state.q, last + 1), row(state.q, last))
+    t = scale(1.0 / norm(edge), edge)
+    angle = sqrt(turn[0] * turn[0] + turn[1] * turn[1])
+    if state.held[0] == last + 1 or angle == 0.0:
+        return t
+    m1, m2 = material_frame(row(state.director, last), t, state.q[last, 3])
+    aside = combine(turn[0], m1, turn[1], m2)
+    return combine(cos(angle), t, sin(angle) / angle, aside)
+
+
+@part
+def force_up_to(rod, gradient, place):
+    """Sum of the wall's forces on the wire behind a place; a cell's is spread over it evenly."""
+    total = 0.0
+    for i in range(1, gradient.shape[0]):
+        begin = rod.cell_end[i - 1] if i > 1 else 0.0
+        share = (place - begin) / (rod.cell_end[i] - begin)
+        if share <= 0.0:
+            break
+        g = row(gradient, i)
+        total += min(share, 1.0) * sqrt(dot(g, g))
+    return total
+
+
+@part
+def largest_over(rod, gradient, held, patch):
+    """Largest sum of the wall's forces over a stretch of wire: one of its ends is a cell's."""
+    nodes = gradient.shape[0]
+    length = rod.station[nodes - 1]
+    best = 0.0
+    for i in range(held, nodes):
+        g = row(gradient, i)
+        if g[0] == 0.0 and g[1] == 0.0 and g[2] == 0.0:
+            continue
+        before = rod.cell_end[i - 1] if i > 1 else 0.0
+        for begin in (before, rod.cell_end[i] - patch):
+            begin = min(max(begin, 0.0), length - patch)
+            force = force_up_to(rod, gradient, begin + patch) - force_up_to(rod, gradient, begin)
+            best = max(best, force)
+    return best
+
+
+@part
+def least_clearance(rod, lumen, wall, state, held):
+    """Smallest clearance of the free nodes; what is known to be farther is not asked for."""
+    least = inf
+    for i in range(state.q.shape[0] - 1, held, -1):
+        x = row(state.q, i)
+        known = wall.known[i]
+        away = sub(x, (known[0], known[1], known[2]))
+        if known[3] - norm(away) - rod.offset[i] < least:
+            query(lumen, x, known, wall.jet[i])
+            least = min(least, wall.jet[i, 0] - rod.offset[i])
+    return least
+
+
+@kernel
+def glance(model, state, work, patch, turn, seen):
+    """Fill ``seen`` [GLANCE], scaled; patch: length over which the largest force is looked for."""
+    rod, _, wall, lumen = model
+    held = state.held[0]
+    last = state.q.shape[0] - 1
+    tip, along = row(state.q, last), tip_direction(state, turn)
+    for c in range(3):
+        seen[c] = tip[c]
+        seen[3 + c] = along[c]
+    clear(work.gradient, 0, last + 1)
+    _, nearest = add_walls(rod, lumen, wall, state, held, work.gradient, work.no_band)
+    total = 0.0
+    for i in range(held, last + 1):
+        g = row(work.gradient, i)
+        total += sqrt(dot(g, g))
+    g = row(work.gradient, last)
+    seen[6] = sqrt(dot(g, g))
+    seen[7] = total
+    seen[8] = largest_over(rod, work.gradient, held, patch) if total > 0.0 else 0.0
+    seen[9] = least_clearance(rod, lumen, wall, state, held)
