@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from magwire.contact import Barrier
 from magwire.engine.feed import Feed
 from magwire.engine.hold import Hold
+from magwire.engine.plant import Plant
 from magwire.engine.record import Motion, Record, RunInfo
 from magwire.engine.statics import Equilibrium, find_equilibrium
 from magwire.engine.system import Release, System
@@ -21,6 +22,7 @@ from magwire.interrupt import held_back_interrupt
 from magwire.lumen import Lumen
 from magwire.navigate import NavigationError, Navigator, Steering
 from magwire.operate import March, steered_records
+from magwire.session import Session
 from magwire.wire import Wire
 
 if TYPE_CHECKING:
@@ -203,6 +205,54 @@ class Simulation:
             except NavigationError as error:
                 writer.close("no field", str(error))
         return writer.result()
+
+    def session(
+        self,
+        *,
+        feed: float = 0.0,
+        motion: Motion = "dynamic",
+        time_step: float = 0.01,
+        record_every: float | None = None,
+        out: str | Path | None = None,
+        title: str = "",
+        scenario: str = "",
+    ) -> Session:
+        """The wire in the caller's hands, to be stepped and watched.
+
+        Parameters
+        ----------
+        feed
+            Length of wire past the entrance at the start [m]: an equilibrium there.
+        motion
+            ``"dynamic"``, or ``"quasi-static"``: every step is an equilibrium.
+        time_step
+            Longest time step [s].
+        record_every
+            Time between two records [s]; nothing is recorded if left out.
+        out
+            NetCDF file to record to; in memory if left out.
+        title, scenario
+            Kept in the result.
+
+        Raises
+        ------
+        ConvergenceError
+            If there is no equilibrium at ``feed``.
+        """
+        from magwire.results import Writer
+
+        inertia = one_of("Simulation", "motion", motion, ("dynamic", "quasi-static")) == "dynamic"
+        plant = Plant(self.system)
+        if feed != 0.0:
+            plant.start_at(self.equilibrium(feed).point.state)
+        recording = None
+        if record_every is not None:
+            positive("Simulation", "record_every", record_every, "s")
+            info = self.info(title=title, scenario=scenario, motion=motion)
+            recording = Writer(info, out), record_every
+        elif out is not None:
+            raise InputError(f"Input record_every of Simulation must be given to write {out}.")
+        return Session(plant, time_step=time_step, inertia=inertia, recording=recording)
 
     def equilibrium(
         self,

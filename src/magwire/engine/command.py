@@ -72,3 +72,10 @@ class Drive:
                 "Inputs feed, twist and inputs of Drive must have a value for every step; received "
                 f"{len(self.feed)}, {len(self.twist)} and {len(self.inputs)}."
             )
+
+    def part(self, first: int, last: int) -> Drive:
+        """Steps first ... last - 1 of these."""
+        some = slice(first, last)
+        return Drive(
+            self.feed[some], self.twist[some], self.inputs[some], self.time_step, self.inertia
+        )

@@ -227,6 +227,13 @@ class Plant:
         nodes = len(self.state.q)
         return bool(self._look_closely(np.zeros((nodes, 3)), np.zeros(nodes))[2])
 
+    def start_at(self, state: State) -> None:
+        """Take up a configuration, at rest."""
+        copy_state(state, self.state)
+        self.state.velocity[:] = 0.0
+        self.sample_again()
+        steer(self._field, self.state.inputs)
+
     def snapshot(self) -> Snapshot:
         """What it takes to come back here."""
         state = self.system.new_state()

@@ -1,0 +1,218 @@
+"""A wire in the hands of whoever steps it: a controller, a learner, a person."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from types import TracebackType
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from magwire.engine.command import Command, Drive
+from magwire.engine.observation import Observation
+from magwire.engine.plant import Plant, Snapshot
+from magwire.engine.record import Record
+from magwire.engine.status import Status
+from magwire.errors import ConvergenceError, InputError, array, positive
+
+if TYPE_CHECKING:
+    from magwire.results import Result, Writer
+
+Array = NDArray[np.float64]
+
+
+class Session:
+    """A wire that is stepped from outside; ``Simulation.session`` makes one.
+
+    Use it in a ``with`` statement, at the end of which its recording is closed.
+
+    Parameters
+    ----------
+    plant
+        The wire.
+    time_step
+        Longest time step [s]; longer intervals are cut into equal ones.
+    inertia
+        Without it every step is an equilibrium.
+    recording
+        What records are written to, and the time between two of them [s]; nothing if left out.
+
+    Attributes
+    ----------
+    plant
+        The wire as the engine has it.
+    """
+
+    def __init__(
+        self,
+        plant: Plant,
+        *,
+        time_step: float = 0.01,
+        inertia: bool = True,
+        recording: tuple[Writer, float] | None = None,
+    ) -> None:
+        self.plant = plant
+        self.time_step = positive("Session", "time_step", time_step, "s")
+        self._inertia, self._recording = inertia, recording
+        self._due, self._recorded = 0.0, -1.0
+        self._length = plant.system.wire.length
+        self._one = Drive(np.zeros(1), np.zeros(1), plant.inputs[None], time_step, inertia)
+        self._record_if_due()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self._recording is None:
+            return
+        writer, plant = self._recording[0], self.plant
+        if plant.time > self._recorded:
+            writer.append(plant.record())
+        if plant.status is not Status.CONVERGED:
+            writer.close("not converged", plant.message)
+        writer.__exit__(kind, error, trace)
+
+    def step(
+        self,
+        feed_speed: float = 0.0,
+        twist_rate: float = 0.0,
+        inputs: ArrayLike | None = None,
+        duration: float | None = None,
+    ) -> None:
+        """Move guide and inputs for an interval of time.
+
+        The guide stops where the wire's length ends, either way.
+
+        Parameters
+        ----------
+        feed_speed
+            Of the guide [m/s]; negative retracts.
+        twist_rate
+            Of the guide about its axis [rad/s].
+        inputs
+            Of the actuator at the interval's end, reached linearly, shape (m,): a uniform flux
+            density [T]. They stay as they are if left out.
+        duration
+            Of the interval [s]; one time step if left out.
+
+        Raises
+        ------
+        InputError
+            If a value is not finite, or the duration is not positive.
+        ConvergenceError
+            If a time step fails; the wire is as it was before that step.
+        """
+        if duration is not None and duration != self.time_step:
+            self.advance((Command(feed_speed, twist_rate, inputs, duration),))
+            return
+        plant, drive, dt = self.plant, self._one, self.time_step
+        drive.inputs[0] = plant.state.inputs if inputs is None else inputs
+        if not math.isfinite(feed_speed + twist_rate + float(drive.inputs.sum())):
+            Command(feed_speed, twist_rate, drive.inputs[0])  # says which it is
+        drive.feed[0] = min(max(plant.feed + feed_speed * dt, 0.0), self._length)
+        drive.twist[0] = plant.twist + twist_rate * dt
+        self._do(drive)
+
+    def advance(self, commands: Sequence[Command]) -> None:
+        """Carry out commands one after the other, in as few calls of compiled code as can be.
+
+        Raises
+        ------
+        InputError
+            If the inputs of a command are not as many as the actuator has.
+        ConvergenceError
+            If a time step fails; the wire is as it was before that step.
+        """
+        feed, twist, inputs = self.plant.feed, self.plant.twist, self.plant.inputs
+        rows: list[tuple[float, float, Array]] = []
+        step = 0.0
+        for command in commands:
+            count = max(1, math.ceil(command.duration / self.time_step - 1e-9))
+            each = command.duration / count
+            if rows and each != step:
+                self._do(self._drive(rows, step))
+                rows = []
+            step = each
+            wanted = (
+                inputs
+                if command.inputs is None
+                else array("Command", "inputs", command.inputs, (len(inputs),))
+            )
+            for k in range(1, count + 1):
+                feed = min(max(feed + command.feed_speed * each, 0.0), self._length)
+                twist += command.twist_rate * each
+                rows.append((feed, twist, inputs + (wanted - inputs) * (k / count)))
+            inputs = wanted
+        if rows:
+            self._do(self._drive(rows, step))
+
+    def _drive(self, rows: list[tuple[float, float, Array]], step: float) -> Drive:
+        feed, twist, inputs = zip(*rows, strict=True)
+        return Drive(np.array(feed), np.array(twist), np.stack(inputs), step, self._inertia)
+
+    def _do(self, drive: Drive) -> None:
+        plant, done, whole = self.plant, 0, len(drive.feed)
+        if self._recording is None:
+            done = plant.advance(drive)
+        while done < whole and plant.status is Status.CONVERGED and self._recording is not None:
+            wait = self._due - plant.time
+            count = min(whole - done, max(1, math.ceil(wait / drive.time_step - 1e-9)))
+            done += plant.advance(drive.part(done, done + count))
+            self._record_if_due()
+        if done < whole:
+            raise ConvergenceError(plant.message, plant.state.q[1:, :3] * self._length)
+
+    def _record_if_due(self) -> None:
+        if self._recording is None or self.plant.time < self._due * (1.0 - 1e-12):
+            return
+        writer, every = self._recording
+        self._recorded = self.plant.time
+        self._due = self._recorded + every
+        writer.append(self.plant.record())
+
+    def observe(self) -> Observation:
+        """What can be seen of the wire now."""
+        return self.plant.observe()
+
+    @property
+    def stable(self) -> bool:
+        """Whether a wire would stay where it is: its tangent stiffness is positive definite."""
+        return self.plant.stable
+
+    def record(self) -> Record:
+        """The whole state, as a result file has it."""
+        return self.plant.record()
+
+    def snapshot(self) -> Snapshot:
+        """What it takes to come back here."""
+        return self.plant.snapshot()
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Come back to a snapshot, from this session or another one of the same simulation.
+
+        What was recorded since stays recorded, and time goes on from the snapshot's.
+        """
+        self.plant.restore(snapshot)
+        self._due = min(self._due, self.plant.time)
+
+    @property
+    def result(self) -> Result:
+        """What has been recorded, after the ``with`` statement.
+
+        Raises
+        ------
+        InputError
+            If nothing is recorded.
+        ResultError
+            If the session is still open.
+        """
+        if self._recording is None:
+            raise InputError("Input record_every of Simulation.session must be given for a result.")
+        return self._recording[0].result()
