@@ -61,7 +61,7 @@ def random_field(rng: np.random.Generator, edges: int, *, uniform: bool) -> Fiel
         flux_density=rng.normal(size=(edges, 3)),
         gradient=rng.normal(size=(edges, 9)),
         origin=rng.normal(size=(edges, 3)),
-        uniform=uniform,
+        uniform=np.array([uniform]),
         steered=rng.normal(size=3),
     )
 

@@ -189,7 +189,7 @@ def test_a_wire_made_stiffer_is_kept_to_the_limit() -> None:
     course = navigator.plan(observation(0.0), 0.014)
     assert np.linalg.norm(course.flux_density, axis=1).max() <= limit
     pilot, last = navigator._pilot, navigator._knots[-1]
-    navigator.model.return_to(last.memory)
+    navigator.model.return_to(last.snapshot)
     assert last.view is not None
     pilot._margin = 20.0 * last.view.eigenvalue
     before = np.linalg.norm(last.flux)

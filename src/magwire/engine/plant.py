@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import time
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,13 +19,12 @@ from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.field import FieldSource
 from magwire.kernels.arrays import Field, Mouth, State, Tube
-from magwire.kernels.body import Parts, advance, look, make_body
+from magwire.kernels.body import Parts, advance, look, make_body, rest, survey
 from magwire.kernels.glance import GLANCE
 from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.history import copy_state
 from magwire.kernels.march import RETRIES, Tally, steer
-from magwire.kernels.newton import CONVERGED
-from magwire.kernels.observe import observe
+from magwire.kernels.newton import CONVERGED, Limits
 
 Array = NDArray[np.float64]
 
@@ -53,6 +54,19 @@ class Snapshot:
         return replace(self, state=self.state._replace(inputs=inputs.copy()))
 
 
+class Survey(NamedTuple):
+    """What is read off a state for a record or an equilibrium, in SI; see ``Record``."""
+
+    forces: Array
+    clearance: Array
+    middle: float
+    along: float
+    offset: float
+    push: float
+    torque: float
+    stable: bool
+
+
 class Plant:
     """A wire, a lumen, a field, and a guide that moves.
 
@@ -74,7 +88,7 @@ class Plant:
         Simulated [s].
     status, message
         How the last step ended; what happened and what to try if it failed.
-    model, state, work
+    model, field, state, work
         Of the wire, as the kernels hold them.
     """
 
@@ -98,12 +112,12 @@ class Plant:
         self._wall = system.new_wall(tube)
         self._tally = Tally(np.zeros(4), np.array([0.0, 0.0, -1.0]))
         place_held(system.rod, system.guide, self.state, 0, system.wire.nodes, *self.state.guide)
-        self._field = sample(system, self.source, self.state)
-        self.model = (system.rod, self._field, self._wall, system.walls)
-        limits = system.step_limits()
+        self.field = sample(system, self.source, self.state)
+        self.model = (system.rod, self.field, self._wall, system.walls)
+        limits, path = system.step_limits(), system.path_arrays
         self._tolerance = limits.tolerance
         self._body = make_body(
-            Parts(self.model, system.guide, self.state, self.work, limits, self._tally)
+            Parts(self.model, path, system.guide, self.state, self.work, limits, self._tally)
         )
         self._patch = system.patch / system.wire.length
         self._turn = tuple(system.mesh.rest_turn[-1].tolist())
@@ -133,7 +147,7 @@ class Plant:
     @inputs.setter
     def inputs(self, inputs: Array) -> None:
         self.state.inputs[:] = inputs
-        steer(self._field, self.state.inputs)
+        steer(self.field, self.state.inputs)
 
     @property
     def released(self) -> bool:
@@ -185,7 +199,7 @@ class Plant:
             if status != CONVERGED:
                 return done, status
             now = sample(self.system, self.source, self.state)
-            if mismatch(self.system, self._field, now, int(self.state.held[0])) <= self._tolerance:
+            if mismatch(self.system, self.field, now, int(self.state.held[0])) <= self._tolerance:
                 return done, status
             self._take_over(now)
             iterations = self._tally.counts[1:].copy()
@@ -197,10 +211,21 @@ class Plant:
         """Sample the outside field where the wire is now."""
         self._take_over(sample(self.system, self.source, self.state))
 
+    def samples(self) -> Field:
+        """The field as it is sampled now."""
+        now = self.field
+        return Field(
+            now.flux_density.copy(),
+            now.gradient.copy(),
+            now.origin.copy(),
+            now.uniform.copy(),
+            now.steered.copy(),
+        )
+
     def _take_over(self, now: Field) -> None:
-        field = self._field
-        field.flux_density[:], field.gradient[:] = now.flux_density, now.gradient
-        field.origin[:] = now.origin
+        field = self.field
+        for kept, value in zip(field[:4], now[:4], strict=True):
+            kept[:] = value
 
     def observe(self) -> Observation:
         """What can be seen of the wire now, without a record of all its nodes."""
@@ -224,15 +249,20 @@ class Plant:
     @property
     def stable(self) -> bool:
         """Whether the tangent stiffness, without inertia, is positive definite (P-16)."""
-        nodes = len(self.state.q)
-        return bool(self._look_closely(np.zeros((nodes, 3)), np.zeros(nodes))[2])
+        return self.survey().stable
+
+    def use(self, source: FieldSource) -> None:
+        """Be in another outside field from now on."""
+        self.source = source
+        self.sample_again()
 
     def start_at(self, state: State) -> None:
         """Take up a configuration, at rest."""
         copy_state(state, self.state)
         self.state.velocity[:] = 0.0
-        self.sample_again()
-        steer(self._field, self.state.inputs)
+        if not self.source.affine:
+            self.sample_again()
+        steer(self.field, self.state.inputs)
 
     def snapshot(self) -> Snapshot:
         """What it takes to come back here."""
@@ -248,21 +278,38 @@ class Plant:
             value[:] = kept
         self.time = snapshot.time
         self.status, self.message = Status.CONVERGED, ""
-        steer(self._field, self.state.inputs)
+        steer(self.field, self.state.inputs)
 
     @property
     def mouth(self) -> Mouth:
         """Where the guide ends."""
         return Mouth(*find_mouth(self.system.rod, self.system.guide, self.state.guide[0]))
 
-    def _look_closely(self, forces: Array, clearance: Array) -> tuple[float, float, bool]:
-        """Put what the guide holds in its place, and see what a record holds."""
-        system, state, mouth = self.system, self.state, self.mouth
-        place_held(system.rod, system.guide, state, 0, mouth.held, *state.guide)
-        found: tuple[float, float, bool] = observe(
-            self.model, state, mouth, self.work, forces, clearance
+    def settle(self, limits: Limits) -> tuple[Status, int, float]:
+        """Bring the wire to rest as guide and inputs are; how it ended, iterations, residual."""
+        status, taken, _, residual, _ = rest(self._body, limits)
+        return Status(status), int(taken), float(residual)
+
+    def survey(self) -> Survey:
+        """What a record holds."""
+        nodes, system = len(self.state.q), self.system
+        forces, clearance = np.zeros((nodes, 3)), np.zeros(nodes)
+        held, offset, (middle, along, stable) = survey(self._body, forces, clearance)
+        clearance[: held + 1] = np.nan
+        length = system.scales.length
+        if math.isnan(offset):
+            offset = float(system.path.offset(self.state.q[-1:, :3] * length)[0]) / length
+        push, torque = reaction(system, held, self.work.gradient)
+        return Survey(
+            forces[1:] * system.scales.force,
+            clearance[1:] * length,
+            middle * length if middle < math.inf else math.nan,
+            along * length if along < math.inf else math.nan,
+            offset * length,
+            push,
+            torque,
+            bool(stable),
         )
-        return found
 
     @property
     def totals(self) -> Totals:
@@ -286,14 +333,9 @@ class Plant:
         """The state as it is now."""
         system, state = self.system, self.state
         scales = system.scales
-        nodes = len(state.q)
-        forces, clearance = np.zeros((nodes, 3)), np.zeros(nodes)
-        middle, along, stable = self._look_closely(forces, clearance)
-        mouth = self.mouth
-        push, torque = reaction(system, mouth, self.work.gradient)
-        clearance[: mouth.held + 1] = np.nan
-        if mouth.held < nodes - 1:
-            self._clearance = min(self._clearance, along * scales.length)
+        seen = self.survey()
+        if seen.along == seen.along:
+            self._clearance = min(self._clearance, seen.along)
         counts = self._tally.counts
         new_steps = counts[0] - self._counted[0]
         iterations = (counts[1] - self._counted[1]) / new_steps if new_steps > 0 else 0.0
@@ -304,15 +346,15 @@ class Plant:
             feed=self.feed,
             position=state.q[1:, :3] * scales.length,
             flux_density=self.source.at(tip)[0][0] + state.inputs,
-            contact_force=forces[1:] * scales.force,
-            clearance=clearance[1:] * scales.length,
-            clearance_midpoint=middle * scales.length if np.isfinite(middle) else float("nan"),
-            clearance_along=along * scales.length if np.isfinite(along) else float("nan"),
-            tip_force=float(np.linalg.norm(forces[-1])) * scales.force,
-            tip_offset=float(system.path.offset(tip)[0]),
-            push_force=push,
-            guide_torque=torque,
+            contact_force=seen.forces,
+            clearance=seen.clearance,
+            clearance_midpoint=seen.middle,
+            clearance_along=seen.along,
+            tip_force=float(np.linalg.norm(seen.forces[-1])),
+            tip_offset=seen.offset,
+            push_force=seen.push,
+            guide_torque=seen.torque,
             newton_iterations=float(iterations),
-            stable=bool(stable),
+            stable=seen.stable,
             totals=self.totals,
         )

@@ -6,24 +6,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.engine.system import System
-from magwire.kernels.arrays import Mouth
 
 Array = NDArray[np.float64]
 
 
-def reaction(system: System, mouth: Mouth, gradient: Array) -> tuple[float, float]:
+def reaction(system: System, held: int, gradient: Array) -> tuple[float, float]:
     """Push along the guide [N] and torque about it [N m], of the guide on the wire in front.
 
     Parameters
     ----------
     system
         Wire and guide.
-    mouth
-        Where the guide ends. What it holds of the wire in front is an edge: two nodes, one angle.
+    held
+        Last node that the guide holds. What it holds of the wire in front is an edge: two nodes,
+        one angle.
     gradient
         Of the energy without inertia, scaled, shape (nodes + 1, 4).
     """
-    held = gradient[mouth.held - 1 : mouth.held + 1]
-    push = float(held[:, :3].sum(axis=0) @ system.guide.direction)
+    edge = gradient[held - 1 : held + 1]
+    push = float(edge[:, :3].sum(axis=0) @ system.guide.direction)
     scales = system.scales
-    return push * scales.force, float(held[0, 3]) * scales.force * scales.length
+    return push * scales.force, float(edge[0, 3]) * scales.force * scales.length

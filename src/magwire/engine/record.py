@@ -17,7 +17,7 @@ EDGES = 2.0  # edges in a patch at least: forces are not known any finer
 
 def patch_length(length: float, nodes: int) -> float:
     """Length over which forces on a wire of some length and nodes are summed [m]."""
-    return min(length, max(PATCH, EDGES * length / max(nodes - 1, 1)))
+    return min(length, max(PATCH, EDGES * (length / max(nodes - 1, 1))))
 
 
 @dataclass(frozen=True)

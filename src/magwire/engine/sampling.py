@@ -24,7 +24,7 @@ def sample(system: System, source: FieldSource, state: State) -> Field:
         flux_density=np.array(flux, dtype=np.float64),
         gradient=slope,
         origin=middle,
-        uniform=source.affine and not bool(np.any(slope)),
+        uniform=np.array([source.affine and not np.any(slope)]),
         steered=np.zeros(3),
     )
 

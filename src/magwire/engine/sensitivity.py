@@ -71,7 +71,7 @@ def _loads(point: Point, wrt: Input) -> tuple[Array, tuple[int, ...], float]:
                     flux_density=here + middle @ unit.T,
                     gradient=point.field.gradient + unit.ravel(),
                     origin=middle,
-                    uniform=False,
+                    uniform=np.array([False]),
                     steered=point.field.steered,
                 )
             )

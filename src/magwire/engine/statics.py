@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from magwire.engine.hold import Hold, carry
 from magwire.engine.plant import Plant
 from magwire.engine.point import Point
-from magwire.engine.reaction import reaction
-from magwire.engine.sampling import sample, unsampled_stiffness
+from magwire.engine.sampling import unsampled_stiffness
 from magwire.engine.sensitivity import Input, Output, derivative
 from magwire.engine.status import Status
 from magwire.engine.system import System
@@ -20,12 +19,9 @@ from magwire.engine.tip import tip_direction
 from magwire.engine.uneven import Settled, settle
 from magwire.errors import ConvergenceError, InputError, finite, within
 from magwire.field import FieldSource
-from magwire.kernels.arrays import Motion, Mouth, State, Work
+from magwire.kernels.arrays import Mouth, State
 from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.hinge import transport
-from magwire.kernels.history import copy_state
-from magwire.kernels.newton import newton
-from magwire.kernels.observe import observe
 
 Array = NDArray[np.float64]
 FEWEST = 4  # nodes past the guide of a wire whose last edge is held
@@ -133,42 +129,46 @@ def find_equilibrium(
         feed = length
     within("Simulation", "feed", feed, "m", low=0.0, high=length)
     twist = finite("Simulation", "twist", twist, "rad")
-    part = feed / system.wire.length
-    mouth = Mouth(*find_mouth(system.rod, system.guide, part))
+    part = feed / length
+    plant = system.idle.pop() if system.idle else Plant(system, source)
+    plant.use(source)
+    state, mouth = plant.state, Mouth(*find_mouth(system.rod, system.guide, part))
     held = mouth.held
     if start is None:
-        state = lay_on_centreline(system, held, part, twist)
+        lay_on_centreline(system, state, held, part, twist)
     else:
-        state = follow(system, source, start, part, twist)
+        follow(plant, start, part, twist)
     place_held(system.rod, system.guide, state, 0, held, part, twist)
     state.guide[:], state.held[0] = (part, twist), held
-    work = system.new_work()
-    done = Settled(sample(system, source, state), "", 0, 0.0)
+    done = Settled(plant.field, "", 0, 0.0)
     if hold is not None:
         _check_hold(source, start, feed, system.wire.nodes - held)
-        done = carry(system, done.field, state, mouth, hold)
+        done = carry(system, plant.field, state, mouth, hold)
+    elif held < system.wire.nodes and source.affine:
+        status, taken, left = plant.settle(system.sharp_limits())
+        reason = "" if status is Status.CONVERGED else status.remedy
+        done = Settled(plant.field, reason, taken, left)
     elif held < system.wire.nodes:
-        done = (_settle if source.affine else settle)(system, source, state, mouth, work)
+        done = settle(system, source, state, mouth, plant.work)
+        plant.sample_again()
     if done.reason:
         raise _failure(system, feed, done.reason, state)
-    nodes = len(state.q)
-    forces, clearance = np.zeros((nodes, 3)), np.full(nodes, np.nan)
-    model = (system.rod, done.field, system.new_wall(), system.walls)
-    _, _, stable = observe(model, state, mouth, work, forces, clearance)
-    push, torque = reaction(system, mouth, work.gradient)
-    point = Point(system, done.field, state, mouth, far_held=hold is not None)
+    seen = plant.survey()
+    stable = seen.stable
+    point = Point(system, plant.samples(), plant.snapshot().state, mouth, far_held=hold is not None)
     if held < system.wire.nodes and not source.affine:
         point = replace(point, unsampled=unsampled_stiffness(system, source, state))
     if point.far_held or point.unsampled is not None:
         stable = point.stable
+    system.idle.append(plant)
     return Equilibrium(
         feed=feed,
         twist=twist,
         positions=state.q[1:, :3] * system.scales.length,
-        wall_force=forces[1:] * system.scales.force,
-        push_force=push,
-        guide_torque=torque,
-        clearance=clearance[1:] * system.scales.length,
+        wall_force=seen.forces,
+        push_force=seen.push,
+        guide_torque=seen.torque,
+        clearance=seen.clearance,
         stable=bool(stable),
         residual=done.residual * system.scales.force,
         iterations=done.iterations,
@@ -195,19 +195,8 @@ def _check_hold(source: FieldSource, start: Equilibrium | None, feed: float, fre
         )
 
 
-def _settle(system: System, source: FieldSource, state: State, mouth: Mouth, work: Work) -> Settled:
-    """Bring a state to rest in an affine field."""
-    samples = sample(system, source, state)
-    model = (system.rod, samples, system.new_wall(), system.walls)
-    still = Motion(0.0, work.target)
-    status, taken, _, residual, _ = newton(model, state, mouth, still, work, system.sharp_limits())
-    reason = "" if status == Status.CONVERGED else Status(status).remedy
-    return Settled(samples, reason, taken, residual)
-
-
-def lay_on_centreline(system: System, held: int, feed: float, twist: float) -> State:
-    """The wire laid along the path to the target, untwisted; feed in wire lengths."""
-    state = system.new_state()
+def lay_on_centreline(system: System, state: State, held: int, feed: float, twist: float) -> None:
+    """Lay the wire along the path to the target, untwisted; feed in wire lengths."""
     tip = len(state.q) - 1
     place_held(system.rod, system.guide, state, 0, tip, feed, twist)
     past = system.rod.station - (system.rod.station[-1] - feed)
@@ -221,32 +210,27 @@ def lay_on_centreline(system: System, held: int, feed: float, twist: float) -> S
         state.tangent[i] = edge / state.length[i]
         before = tuple(state.director[i - 1]), tuple(state.tangent[i - 1])
         state.director[i] = transport(*before, tuple(state.tangent[i]))
-    return state
+    state.q[tip, 3] = state.twist[:] = 0.0
 
 
-def follow(
-    system: System, source: FieldSource, start: Equilibrium, feed: float, twist: float
-) -> State:
-    """Feed the wire from an equilibrium on, by equilibria; feed in wire lengths."""
-    length = system.wire.length
-    plant = Plant(system, source)
-    copy_state(start.point.state, plant.state)
-    before = start.feed / length
-    steps = math.ceil(abs(feed - before) / (0.5 * float(system.rod.rest.min())) - 1e-9)
+def follow(plant: Plant, start: Equilibrium, feed: float, twist: float) -> None:
+    """Feed a wire from an equilibrium on, by equilibria; feed in wire lengths."""
+    system, affine = plant.system, plant.source.affine
+    plant.start_at(start.point.state)
+    before = start.feed / system.wire.length
+    steps = math.ceil(abs(feed - before) / (0.5 * system.shortest_edge) - 1e-9)
     course = np.linspace(before, feed, steps + 1)[1:]
     turns = np.linspace(start.twist, twist, steps + 1)[1:]
-    still = np.tile(plant.inputs, (steps, 1))
-    plant.sample_again()
+    still = np.broadcast_to(plant.inputs, (steps, len(plant.inputs))).copy()
     done, status = 0, Status.CONVERGED
     while done < steps and status == Status.CONVERGED:
-        some = slice(done, steps if source.affine else done + 1)
+        some = slice(done, steps if affine else done + 1)
         now, ended = plant.march(course[some], turns[some], still[some], 1.0, inertia=False)
         done, status = done + now, Status(ended)
-        if not source.affine:  # to settle there comes after this
+        if not affine:  # to settle there comes after this
             plant.sample_again()
     if status != Status.CONVERGED:
         raise _failure(system, plant.feed, status.remedy, plant.state)
-    return plant.state
 
 
 def _failure(system: System, feed: float, reason: str, state: State) -> ConvergenceError:

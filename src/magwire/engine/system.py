@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -158,6 +158,11 @@ class System:
         """The way from the entrance to the lumen's target, as a single tube."""
         return self.lumen.path()
 
+    @cached_property
+    def path_arrays(self) -> LumenArrays:
+        """The path for the gap kernels, in units of the wire's length."""
+        return self.path.arrays(self.wire.length)
+
     @property
     def keep_off(self) -> float:
         """What the wall keeps from the wire's axis, where the wire is widest [m] (P-12)."""
@@ -185,12 +190,26 @@ class System:
         """
         body = self.wire.body
         inertia = body.density * body.area * self.wire.length**4 / body.bending_stiffness
+        return Limits(max(tolerance, self._round_off), iterations, FIRST_SHIFT / inertia)
+
+    @cached_property
+    def _round_off(self) -> float:
+        """Of the forces, in EI/L^2: it grows with the coordinates."""
         rod = self.rod
-        stiffest = max(float((rod.stretch / rod.rest).max()), 1.0 / float(rod.rest.min()) ** 3)
+        stiffest = max(float((rod.stretch / rod.rest).max()), 1.0 / self.shortest_edge**3)
         points = [branch.points for branch in self.lumen.branches]
         far = max([1.0, *(float(np.abs(p).max()) / self.wire.length for p in points)])
-        floor = 4.0 * float(np.finfo(np.float64).eps) * far * stiffest
-        return Limits(max(tolerance, floor), iterations, FIRST_SHIFT / inertia)
+        return 4.0 * float(np.finfo(np.float64).eps) * far * stiffest
+
+    @cached_property
+    def shortest_edge(self) -> float:
+        """In wire lengths."""
+        return float(self.rod.rest.min())
+
+    @cached_property
+    def idle(self) -> list[Any]:
+        """Plants of this system that one equilibrium leaves to the next."""
+        return []
 
     @cached_property
     def firmness(self) -> Firmness:
@@ -241,6 +260,10 @@ class System:
 
     def new_state(self) -> State:
         """A state with all arrays allocated and the wire behind the entrance."""
+        return State._make(values.copy() for values in self._blank)
+
+    @cached_property
+    def _blank(self) -> State:
         nodes = self.wire.nodes + 1
         return State(
             q=np.zeros((nodes, 4)),

@@ -15,6 +15,7 @@ from magwire.kernels.centreline import LumenArrays
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
+Flag = NDArray[np.bool_]
 
 
 class Rod(NamedTuple):
@@ -55,13 +56,14 @@ class Guide(NamedTuple):
 class Field(NamedTuple):
     """Field samples of each edge: B_0 [N, 3], gradient [N, 9] by rows, where sampled [N, 3].
 
-    steered [3]: what the actuator's inputs add, everywhere.
+    uniform [1]: whether all gradients are zero; steered [3]: what the actuator's inputs add,
+    everywhere.
     """
 
     flux_density: Array
     gradient: Array
     origin: Array
-    uniform: bool
+    uniform: Flag
     steered: Array
 
 

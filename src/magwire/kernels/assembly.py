@@ -152,7 +152,7 @@ def _add_magnet(field, state, j, m, gradient, band, r):
     m1, m2 = material_frame(row(state.director, j), t, state.q[j, 3])
     steered = field.steered
     b = add(row(field.flux_density, j), (steered[0], steered[1], steered[2]))
-    if not field.uniform:
+    if not field.uniform[0]:
         middle = combine(0.5, row(state.q, j), 0.5, row(state.q, j + 1))
         away = sub(middle, row(field.origin, j))
         g = field.gradient[j]

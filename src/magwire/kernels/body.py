@@ -12,18 +12,25 @@ from typing import NamedTuple
 from numba import types
 from numba.experimental import structref
 
-from magwire.kernels._jit import entry
-from magwire.kernels.arrays import Field, Guide, Rod, State, Wall, Work
+from magwire.kernels._jit import entry, kernel
+from magwire.kernels.arrays import Field, Guide, Motion, Mouth, Rod, State, Wall, Work
 from magwire.kernels.centreline import LumenArrays
 from magwire.kernels.glance import glance
+from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.march import Drive, Tally, march
-from magwire.kernels.newton import Limits
+from magwire.kernels.newton import Limits, newton
+from magwire.kernels.observe import observe, off_centreline
+from magwire.kernels.vectors import row
 
 
 class Parts(NamedTuple):
-    """What a moving wire is made of; ``model`` is what its energy needs."""
+    """What a moving wire is made of.
+
+    model: what its energy needs; path: the way to the target, as a single tube.
+    """
 
     model: tuple[Rod, Field, Wall, LumenArrays]
+    path: LumenArrays
     guide: Guide
     state: State
     work: Work
@@ -55,6 +62,35 @@ def advance(body, feed, twist, inputs, time_step, damping, inertia):
     p = body.parts
     drive = Drive(feed, twist, inputs, time_step, damping, inertia)
     return march(p.model, p.guide, p.state, p.work, p.limits, drive, p.tally)
+
+
+@entry
+def rest(body, limits):
+    """Newton's method to the equilibrium nearby; see ``newton``."""
+    p = body.parts
+    mouth = mouth_of(p.model[0], p.guide, p.state)
+    return newton(p.model, p.state, mouth, Motion(0.0, p.work.target), p.work, limits)
+
+
+@entry
+def survey(body, forces, clearance):
+    """Put what the guide holds in its place and read off what a record holds; see ``observe``.
+
+    Returns the last held node, the tip's distance from the centreline, and what ``observe`` does.
+    """
+    p = body.parts
+    mouth = mouth_of(p.model[0], p.guide, p.state)
+    place_held(p.model[0], p.guide, p.state, 0, mouth.held, p.state.guide[0], p.state.guide[1])
+    found = observe(p.model, p.state, mouth, p.work, forces, clearance)
+    tip = row(p.state.q, p.state.q.shape[0] - 1)
+    return mouth.held, off_centreline(p.path, tip), found
+
+
+@kernel
+def mouth_of(rod, guide, state):
+    """Where the guide ends."""
+    held, fraction = find_mouth(rod, guide, state.guide[0])
+    return Mouth(held, fraction)
 
 
 @entry

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from math import inf, sqrt
+from math import inf, nan, sqrt
 
 from magwire.kernels._jit import kernel, part
 from magwire.kernels.arrays import Motion
 from magwire.kernels.assembly import FIRST, assemble, clear
 from magwire.kernels.band import factor
-from magwire.kernels.vectors import combine, dot, row, scale, sub
+from magwire.kernels.centreline import FIRST as FIRST_PIECE
+from magwire.kernels.centreline import PIECES, SPACING, spline
+from magwire.kernels.vectors import combine, dot, norm, row, scale, sub
 from magwire.kernels.wall.contact import add_walls
 from magwire.kernels.wall.gap import gap_jet, gap_value
 
@@ -45,6 +47,21 @@ def nearest_on_edge(lumen, x, y, length, offset, least):
         least = min(least, d)
         s += max(FINEST, ahead / length)
     return least
+
+
+@kernel
+def off_centreline(path, x):
+    """Distance of a point from the centreline of a single tube; nan where no voxel holds it."""
+    _, s, branch, _ = gap_value(path, x[0], x[1], x[2])
+    if branch < 0:
+        return nan
+    only = path.branches[0]
+    inside = min(max(s, 0.0), only[SPACING] * only[PIECES])
+    piece = min(int(inside / only[SPACING]), int(only[PIECES]) - 1)
+    t = inside - piece * only[SPACING]
+    c, c1, _, _ = spline(path.coefficients, int(only[FIRST_PIECE]) + piece, t)
+    centre = combine(1.0, (c[0], c[1], c[2]), s - inside, (c1[0], c1[1], c1[2]))
+    return norm(sub(x, centre))
 
 
 @kernel
