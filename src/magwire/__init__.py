@@ -11,30 +11,41 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from magwire.contact import Barrier as Barrier
+    from magwire.engine.command import Command as Command
     from magwire.engine.feed import Feed as Feed
     from magwire.engine.hold import Hold as Hold
+    from magwire.engine.observation import Observation as Observation
+    from magwire.engine.plant import Snapshot as Snapshot
+    from magwire.engine.record import Record as Record
     from magwire.engine.statics import Equilibrium as Equilibrium
     from magwire.errors import ConvergenceError as ConvergenceError
     from magwire.errors import InputError as InputError
     from magwire.errors import MagwireError as MagwireError
     from magwire.errors import ResultError as ResultError
     from magwire.errors import ScenarioError as ScenarioError
+    from magwire.field import FieldSource as FieldSource
     from magwire.field import GradientField as GradientField
     from magwire.field import UniformField as UniformField
     from magwire.lumen import Lumen as Lumen
     from magwire.many import Outcome as Outcome
     from magwire.many import run_many as run_many
+    from magwire.navigate import NavigationError as NavigationError
+    from magwire.navigate import Navigator as Navigator
     from magwire.navigate import Prescribed as Prescribed
     from magwire.navigate import Schedule as Schedule
+    from magwire.navigate import Steering as Steering
     from magwire.navigate.demands import Demands as Demands
     from magwire.navigate.stable import StableNavigator as StableNavigator
     from magwire.navigate.tip import TipNavigator as TipNavigator
+    from magwire.operate import Ending as Ending
+    from magwire.operate import ForceLimit as ForceLimit
     from magwire.planning import Prospect as Prospect
     from magwire.planning import plan as plan
     from magwire.results import Result as Result
     from magwire.scenario import Scenario as Scenario
     from magwire.scenario import load as load_scenario
     from magwire.scenario import names as scenario_names
+    from magwire.session import Session as Session
     from magwire.simulation import Simulation as Simulation
     from magwire.vessel import Vessel as Vessel
     from magwire.wire import Make as Make
@@ -45,27 +56,38 @@ if TYPE_CHECKING:
 
 _HOMES: dict[str, tuple[str, str]] = {
     "Barrier": ("magwire.contact", "Barrier"),
+    "Command": ("magwire.engine.command", "Command"),
     "ConvergenceError": ("magwire.errors", "ConvergenceError"),
     "Demands": ("magwire.navigate.demands", "Demands"),
+    "Ending": ("magwire.operate", "Ending"),
     "Equilibrium": ("magwire.engine.statics", "Equilibrium"),
     "Feed": ("magwire.engine.feed", "Feed"),
+    "FieldSource": ("magwire.field", "FieldSource"),
+    "ForceLimit": ("magwire.operate", "ForceLimit"),
     "GradientField": ("magwire.field", "GradientField"),
     "Hold": ("magwire.engine.hold", "Hold"),
     "InputError": ("magwire.errors", "InputError"),
     "Lumen": ("magwire.lumen", "Lumen"),
     "MagwireError": ("magwire.errors", "MagwireError"),
     "Make": ("magwire.wire", "Make"),
+    "NavigationError": ("magwire.navigate", "NavigationError"),
+    "Navigator": ("magwire.navigate", "Navigator"),
+    "Observation": ("magwire.engine.observation", "Observation"),
     "Outcome": ("magwire.many", "Outcome"),
     "Prescribed": ("magwire.navigate", "Prescribed"),
     "Prospect": ("magwire.planning", "Prospect"),
+    "Record": ("magwire.engine.record", "Record"),
     "Result": ("magwire.results", "Result"),
     "ResultError": ("magwire.errors", "ResultError"),
     "Scenario": ("magwire.scenario", "Scenario"),
     "ScenarioError": ("magwire.errors", "ScenarioError"),
     "Schedule": ("magwire.navigate", "Schedule"),
     "Section": ("magwire.wire", "Section"),
+    "Session": ("magwire.session", "Session"),
     "Simulation": ("magwire.simulation", "Simulation"),
+    "Snapshot": ("magwire.engine.plant", "Snapshot"),
     "StableNavigator": ("magwire.navigate.stable", "StableNavigator"),
+    "Steering": ("magwire.navigate", "Steering"),
     "TipNavigator": ("magwire.navigate.tip", "TipNavigator"),
     "UniformField": ("magwire.field", "UniformField"),
     "Vessel": ("magwire.vessel", "Vessel"),
@@ -78,27 +100,38 @@ _HOMES: dict[str, tuple[str, str]] = {
 
 __all__ = [
     "Barrier",
+    "Command",
     "ConvergenceError",
     "Demands",
+    "Ending",
     "Equilibrium",
     "Feed",
+    "FieldSource",
+    "ForceLimit",
     "GradientField",
     "Hold",
     "InputError",
     "Lumen",
     "MagwireError",
     "Make",
+    "NavigationError",
+    "Navigator",
+    "Observation",
     "Outcome",
     "Prescribed",
     "Prospect",
+    "Record",
     "Result",
     "ResultError",
     "Scenario",
     "ScenarioError",
     "Schedule",
     "Section",
+    "Session",
     "Simulation",
+    "Snapshot",
     "StableNavigator",
+    "Steering",
     "TipNavigator",
     "UniformField",
     "Vessel",

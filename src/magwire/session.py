@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from types import TracebackType
 from typing import TYPE_CHECKING, Self
 
@@ -16,6 +17,7 @@ from magwire.engine.plant import Plant, Snapshot
 from magwire.engine.record import Record
 from magwire.engine.status import Status
 from magwire.errors import ConvergenceError, InputError, array, positive
+from magwire.operate import Assist
 
 if TYPE_CHECKING:
     from magwire.results import Result, Writer
@@ -43,6 +45,8 @@ class Session:
     ----------
     plant
         The wire as the engine has it.
+    assist
+        Who gives the inputs where a step leaves them out; nobody if None.
     """
 
     def __init__(
@@ -57,6 +61,7 @@ class Session:
         self.time_step = positive("Session", "time_step", time_step, "s")
         self._inertia, self._recording = inertia, recording
         self._due, self._recorded = 0.0, -1.0
+        self.assist: Assist | None = None
         self._length = plant.system.wire.length
         self._one = Drive(np.zeros(1), np.zeros(1), plant.inputs[None], time_step, inertia)
         self._record_if_due()
@@ -98,7 +103,7 @@ class Session:
             Of the guide about its axis [rad/s].
         inputs
             Of the actuator at the interval's end, reached linearly, shape (m,): a uniform flux
-            density [T]. They stay as they are if left out.
+            density [T]. If left out, the navigator's, or as they are without one.
         duration
             Of the interval [s]; one time step if left out.
 
@@ -108,15 +113,24 @@ class Session:
             If a value is not finite, or the duration is not positive.
         ConvergenceError
             If a time step fails; the wire is as it was before that step.
+        NavigationError
+            If the navigator finds no inputs.
         """
         if duration is not None and duration != self.time_step:
-            self.advance((Command(feed_speed, twist_rate, inputs, duration),))
+            command = Command(feed_speed, twist_rate, inputs, duration)
+            parts = 1 if self.assist is None or inputs is not None else self._steps(command)
+            each = replace(command, duration=duration / parts)
+            for _ in range(parts):
+                self.advance((self._assisted(each),))
             return
         plant, drive, dt = self.plant, self._one, self.time_step
+        feed = min(max(plant.feed + feed_speed * dt, 0.0), self._length)
+        if inputs is None and self.assist is not None:
+            inputs = self.assist.inputs(feed, feed_speed)
         drive.inputs[0] = plant.state.inputs if inputs is None else inputs
         if not math.isfinite(feed_speed + twist_rate + float(drive.inputs.sum())):
             Command(feed_speed, twist_rate, drive.inputs[0])  # says which it is
-        drive.feed[0] = min(max(plant.feed + feed_speed * dt, 0.0), self._length)
+        drive.feed[0] = feed
         drive.twist[0] = plant.twist + twist_rate * dt
         self._do(drive)
 
@@ -134,7 +148,7 @@ class Session:
         rows: list[tuple[float, float, Array]] = []
         step = 0.0
         for command in commands:
-            count = max(1, math.ceil(command.duration / self.time_step - 1e-9))
+            count = self._steps(command)
             each = command.duration / count
             if rows and each != step:
                 self._do(self._drive(rows, step))
@@ -152,6 +166,17 @@ class Session:
             inputs = wanted
         if rows:
             self._do(self._drive(rows, step))
+
+    def _steps(self, command: Command) -> int:
+        return max(1, math.ceil(command.duration / self.time_step - 1e-9))
+
+    def _assisted(self, command: Command) -> Command:
+        """The command with the navigator's inputs, if there is one and none are given."""
+        if command.inputs is not None or self.assist is None:
+            return command
+        feed = self.plant.feed + command.feed_speed * command.duration
+        feed = min(max(feed, 0.0), self._length)
+        return replace(command, inputs=self.assist.inputs(feed, command.feed_speed))
 
     def _drive(self, rows: list[tuple[float, float, Array]], step: float) -> Drive:
         feed, twist, inputs = zip(*rows, strict=True)

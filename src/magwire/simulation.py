@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,7 +13,7 @@ from magwire.contact import Barrier
 from magwire.engine.feed import Feed
 from magwire.engine.hold import Hold
 from magwire.engine.plant import Plant
-from magwire.engine.record import Motion, Record, RunInfo
+from magwire.engine.record import Motion, RunInfo
 from magwire.engine.statics import Equilibrium, find_equilibrium
 from magwire.engine.system import Release, System
 from magwire.errors import InputError, array, one_of, positive
@@ -21,7 +21,16 @@ from magwire.field import FieldSource, UniformField
 from magwire.interrupt import held_back_interrupt
 from magwire.lumen import Lumen
 from magwire.navigate import NavigationError, Navigator, Steering
-from magwire.operate import March, steered_records
+from magwire.operate import (
+    Assist,
+    Ending,
+    March,
+    Until,
+    Watcher,
+    inside,
+    stable,
+    steered_records,
+)
 from magwire.session import Session
 from magwire.wire import Wire
 
@@ -32,14 +41,6 @@ Array = NDArray[np.float64]
 
 UPDATE_EVERY = 5e-4  # feed between two observations of a navigator that has no wish [m]
 WAY_POINTS = 2001  # of the way to the target, in the description of a run
-UNSTABLE = (
-    "The equilibrium at {:.4g} mm of feed is unstable: a wire leaves it, and quasi-static motion "
-    "does not tell where to."
-)
-OUTSIDE = (
-    "At {:.4g} mm of feed a point between two nodes is {:.3g} um outside the wall: the wire's "
-    "edges are too long for the bend there; use more nodes."
-)
 
 
 class Simulation:
@@ -122,7 +123,7 @@ class Simulation:
         out: str | Path | None = None,
         title: str = "",
         scenario: str = "",
-        watch: Callable[[Record], None] | None = None,
+        watch: Watcher | Sequence[Watcher] | None = None,
     ) -> Result:
         """Push the wire through the lumen (P-14, P-15, P-16).
 
@@ -151,7 +152,8 @@ class Simulation:
         title, scenario
             Kept in the result.
         watch
-            Called with every record.
+            Called with every record, one or several. A run ends with the ``Ending`` that one of
+            them returns; ``ForceLimit`` is one.
 
         Returns
         -------
@@ -159,7 +161,8 @@ class Simulation:
             Its ``status`` is "complete"; or "not converged" with a ``message`` that names the
             remedy, and it then ends at the last state that did converge; or "unstable", if the
             motion is quasi-static and comes to an equilibrium that a wire would leave; or "no
-            field" with a ``message`` that says where the navigator found none, and why.
+            field" with a ``message`` that says where the navigator found none, and why; or that of
+            a watcher that ended it.
         """
         from magwire.results import Writer
 
@@ -181,27 +184,26 @@ class Simulation:
             records = march.records(every)
         else:
             records = steered_records(march, navigator, every=every, update=update)
+        watchers: list[Watcher] = [inside] if inertia else [inside, stable]
+        if until is not None:
+            watchers.append(Until(until, self.tip_arc))
+        watchers += [watch] if callable(watch) else watch or ()
         info = self.info(title=title, scenario=scenario, motion=motion)
         with Writer(info, out) as writer, held_back_interrupt() as strike:
             try:
                 for record in records:
                     writer.append(record)
-                    if watch is not None:
-                        watch(record)
                     strike()
-                    if record.clearance_along < 0.0:
-                        outside = OUTSIDE.format(1e3 * record.feed, -1e6 * record.clearance_along)
-                        writer.close("not converged", outside)
-                        return writer.result()
-                    if not (inertia or record.stable):
-                        writer.close("unstable", UNSTABLE.format(1e3 * record.feed))
-                        return writer.result()
-                    if until is not None and self.tip_arc(record.position) >= until:
-                        march.end()
-                converged = march.step == march.steps
-                said = march.plant.message
-                message = " ".join([*getattr(navigator, "notes", ()), said]).strip()
-                writer.close("complete" if converged else "not converged", message)
+                    endings = [watcher(record) for watcher in watchers]  # all of them see it
+                    ending = next((one for one in endings if isinstance(one, Ending)), None)
+                    if ending is not None:
+                        break
+                else:
+                    converged = march.step == march.steps
+                    status = "complete" if converged else "not converged"
+                    ending = Ending(status, march.plant.message)
+                said = [*getattr(navigator, "notes", ()), ending.message]
+                writer.close(ending.status, " ".join(said).strip())
             except NavigationError as error:
                 writer.close("no field", str(error))
         return writer.result()
@@ -210,6 +212,7 @@ class Simulation:
         self,
         *,
         feed: float = 0.0,
+        navigator: Navigator | Steering | None = None,
         motion: Motion = "dynamic",
         time_step: float = 0.01,
         record_every: float | None = None,
@@ -223,6 +226,8 @@ class Simulation:
         ----------
         feed
             Length of wire past the entrance at the start [m]: an equilibrium there.
+        navigator
+            Who gives the inputs where a step leaves them out; they stay as they are without one.
         motion
             ``"dynamic"``, or ``"quasi-static"``: every step is an equilibrium.
         time_step
@@ -252,7 +257,13 @@ class Simulation:
             recording = Writer(info, out), record_every
         elif out is not None:
             raise InputError(f"Input record_every of Simulation must be given to write {out}.")
-        return Session(plant, time_step=time_step, inertia=inertia, recording=recording)
+        session = Session(plant, time_step=time_step, inertia=inertia, recording=recording)
+        if navigator is not None:
+            every = navigator.update_every if isinstance(navigator, Steering) else UPDATE_EVERY
+            if isinstance(navigator, Steering):
+                navigator = navigator.start(self.system)
+            session.assist = Assist(navigator, plant, every)
+        return session
 
     def equilibrium(
         self,

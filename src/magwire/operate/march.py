@@ -130,10 +130,6 @@ class March:
         self.plant.time = self.step * self.time_step
         return done == count
 
-    def end(self) -> None:
-        """Make this the last step of the course."""
-        self.steps = self.step
-
     def records(self, every: int) -> Iterator[Record]:
         """March to the end, with a record at the start and after every so many steps."""
         yield self.plant.record()
