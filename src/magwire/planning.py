@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 from magwire.contact import Barrier
 from magwire.engine.feed import Feed
 from magwire.errors import InputError
+from magwire.kernels.wall.barrier import barrier
 from magwire.lumen import Lumen
 from magwire.lumen.branch import Bend
 from magwire.navigate.demands import Demands
@@ -26,6 +26,7 @@ FINEST = 5e-3  # that feed at most, over the wire's length
 SPEED = 0.01  # wire lengths in a second; there is no inertia
 PART = 0.25  # activation gap at most, over the clearance at the narrowest place
 GAP = 1e-4  # activation gap at most [m]
+LEFT = 0.25  # of the gap, where the wire is bent around the sharpest bend
 HARD = 1e-3  # stiffness of the wall's barrier, over Young's modulus of the wire, at least
 ATTEMPTS = 3  # in one place
 SLACK = 1.1  # feed at most, over the length of the way: a wire may lie on the outside of bends
@@ -159,7 +160,7 @@ def fitted(wire: Wire, length: float) -> Wire:
 
 
 def firm_wall(wire: Wire, bend: float, gap: float) -> Barrier:
-    """A barrier that bends the wire around a bend while it keeps it off by a quarter of its gap.
+    """A barrier that bends the wire around a bend while it keeps it off by a part of its gap.
 
     Middles between the nodes cut the inside of a bend: a wall that lets the nodes come much closer
     than its activation gap would be cut by them. To bend a wire of stiffness EI to a radius rho all
@@ -176,7 +177,7 @@ def firm_wall(wire: Wire, bend: float, gap: float) -> Barrier:
         Activation gap of the barrier [m].
     """
     line_force = wire.bending_stiffness / bend**3
-    slope = gap * (1.5 * math.log(4.0) + 2.25)  # of its energy at a quarter of its gap, over K
+    slope = -barrier(LEFT * gap, gap)[1]  # of its energy, over K
     return Barrier(max(HARD * wire.body.bending_modulus, line_force / slope), gap)
 
 
