@@ -105,3 +105,21 @@ def test_twisting_does_not_bend_a_magnetised_straight_wire() -> None:
     plain = sim.equilibrium(L, flux(wire, 3.0, 90.0))
     turned = sim.equilibrium(L, flux(wire, 3.0, 90.0), start=plain, twist=5.0)
     np.testing.assert_allclose(turned.positions, plain.positions, atol=1e-7 * L)
+
+
+def test_a_result_says_how_guide_and_tip_are_turned() -> None:
+    """In a straight tube the tip follows the guide, and its director turns about the axis."""
+    wire = Wire.uniform(
+        length=0.05, radius=5e-4, youngs_modulus=3e6, shear_modulus=1e6, density=2e3, nodes=21
+    )
+    simulation = Simulation(wire, Lumen.straight(0.1, 3e-3), damping=20.0)
+    with simulation.session(time_step=0.02, record_every=0.5) as turned:
+        turned.step(feed_speed=0.02, twist_rate=0.6, duration=2.0)
+        turned.step(duration=4.0)
+    last = turned.result.dataset.isel(time=-1)
+    assert float(last["guide_twist"]) == pytest.approx(1.2)
+    assert float(last["tip_twist"]) == pytest.approx(1.2, abs=1e-3)
+    first = turned.result.dataset["material_director"].values[0, -1]
+    there = last["material_director"].values[-1]
+    assert np.dot(first, there) == pytest.approx(np.cos(1.2), abs=1e-3)
+    assert np.cross(first, there)[0] == pytest.approx(np.sin(1.2), abs=1e-3)

@@ -62,6 +62,8 @@ class Survey(NamedTuple):
     middle: float
     along: float
     offset: float
+    directors: Array
+    twist: float
     push: float
     torque: float
     stable: bool
@@ -293,8 +295,9 @@ class Plant:
     def survey(self) -> Survey:
         """What a record holds."""
         nodes, system = len(self.state.q), self.system
-        forces, clearance = np.zeros((nodes, 3)), np.zeros(nodes)
-        held, offset, (middle, along, stable) = survey(self._body, forces, clearance)
+        forces, clearance, directors = np.zeros((nodes, 3)), np.zeros(nodes), np.zeros((nodes, 3))
+        found = survey(self._body, forces, clearance, directors)
+        held, offset, twist, (middle, along, stable) = found
         clearance[: held + 1] = np.nan
         length = system.scales.length
         if math.isnan(offset):
@@ -306,6 +309,8 @@ class Plant:
             middle * length if middle < math.inf else math.nan,
             along * length if along < math.inf else math.nan,
             offset * length,
+            directors[1:],
+            twist,
             push,
             torque,
             bool(stable),
@@ -352,6 +357,9 @@ class Plant:
             clearance_along=seen.along,
             tip_force=float(np.linalg.norm(seen.forces[-1])),
             tip_offset=seen.offset,
+            guide_twist=self.twist,
+            tip_twist=seen.twist,
+            material_director=seen.directors,
             push_force=seen.push,
             guide_torque=seen.torque,
             newton_iterations=float(iterations),

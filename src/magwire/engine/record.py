@@ -126,6 +126,12 @@ class Record:
         The smallest anywhere along the wire, nodes and edges [m]; NaN if all is on the guide.
     tip_force, tip_offset
         Size of the wall force on the tip node [N]; distance of the tip from the centreline [m].
+    guide_twist, tip_twist
+        Angle by which the guide has turned the wire, and by which the tip is turned, against a
+        wire that is not twisted [rad].
+    material_director
+        The first material director of the edge from each node, of the last one at the tip, shape
+        (nodes, 3).
     push_force, guide_torque
         Of the guide on the wire in front of it: along the guide [N], about it [N m].
     newton_iterations
@@ -149,6 +155,9 @@ class Record:
     clearance_along: float
     tip_force: float
     tip_offset: float
+    guide_twist: float
+    tip_twist: float
+    material_director: Array
     push_force: float
     guide_torque: float
     newton_iterations: float

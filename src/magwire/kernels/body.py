@@ -19,7 +19,7 @@ from magwire.kernels.glance import glance
 from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.march import Drive, Tally, march
 from magwire.kernels.newton import Limits, newton
-from magwire.kernels.observe import observe, off_centreline
+from magwire.kernels.observe import observe, off_centreline, read_frames
 from magwire.kernels.vectors import row
 
 
@@ -73,17 +73,19 @@ def rest(body, limits):
 
 
 @entry
-def survey(body, forces, clearance):
+def survey(body, forces, clearance, directors):
     """Put what the guide holds in its place and read off what a record holds; see ``observe``.
 
-    Returns the last held node, the tip's distance from the centreline, and what ``observe`` does.
+    Returns the last held node, the tip's distance from the centreline and its twist, and what
+    ``observe`` does.
     """
     p = body.parts
     mouth = mouth_of(p.model[0], p.guide, p.state)
     place_held(p.model[0], p.guide, p.state, 0, mouth.held, p.state.guide[0], p.state.guide[1])
     found = observe(p.model, p.state, mouth, p.work, forces, clearance)
     tip = row(p.state.q, p.state.q.shape[0] - 1)
-    return mouth.held, off_centreline(p.path, tip), found
+    twist = read_frames(p.state, directors)
+    return mouth.held, off_centreline(p.path, tip), twist, found
 
 
 @kernel

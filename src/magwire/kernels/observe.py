@@ -10,6 +10,7 @@ from magwire.kernels.assembly import FIRST, assemble, clear
 from magwire.kernels.band import factor
 from magwire.kernels.centreline import FIRST as FIRST_PIECE
 from magwire.kernels.centreline import PIECES, SPACING, spline
+from magwire.kernels.hinge import material_frame
 from magwire.kernels.vectors import combine, dot, norm, row, scale, sub
 from magwire.kernels.wall.contact import add_walls
 from magwire.kernels.wall.gap import gap_jet, gap_value
@@ -47,6 +48,26 @@ def nearest_on_edge(lumen, x, y, length, offset, least):
         least = min(least, d)
         s += max(FINEST, ahead / length)
     return least
+
+
+@kernel
+def read_frames(state, directors):
+    """Fill ``directors`` [N+1, 3] with the material director m1 of the edge from each node.
+
+    The tip has its edge's. Returns the twist of the tip: that of the guide, and what the wire
+    between them is twisted by.
+    """
+    last = state.length.shape[0] - 1
+    for j in range(last + 1):
+        m1, _ = material_frame(row(state.director, j), row(state.tangent, j), state.q[j, 3])
+        for c in range(3):
+            directors[j, c] = m1[c]
+    for c in range(3):
+        directors[last + 1, c] = directors[last, c]
+    twist = state.q[last, 3]
+    for i in range(state.held[0], last + 1):
+        twist += state.twist[i]
+    return twist
 
 
 @kernel

@@ -108,6 +108,24 @@ VARIABLES: dict[str, Variable] = {
     "tip_offset": Variable(
         ("time",), "m", "distance of the tip from the centreline", lambda r, _: r.tip_offset
     ),
+    "guide_twist": Variable(
+        ("time",),
+        "rad",
+        "angle by which the guide has turned the wire about its axis",
+        lambda r, _: r.guide_twist,
+    ),
+    "tip_twist": Variable(
+        ("time",),
+        "rad",
+        "angle by which the tip is turned about its axis, against an untwisted wire",
+        lambda r, _: r.tip_twist,
+    ),
+    "material_director": Variable(
+        ("time", "node", "xyz"),
+        "1",
+        "first material director of the edge from each node, of the last edge at the tip",
+        lambda r, _: r.material_director,
+    ),
     "push_force": Variable(
         ("time",), "N", "force of the guide on the wire, along the guide", lambda r, _: r.push_force
     ),
