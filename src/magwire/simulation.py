@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from magwire.contact import Barrier
+from magwire.contact import Barrier, Friction
 from magwire.engine.feed import Feed
 from magwire.engine.hold import Hold
 from magwire.engine.plant import Plant
@@ -54,6 +54,9 @@ class Simulation:
         The outside field; none if left out.
     contact
         The wall's barrier.
+    friction
+        Of the wall; none if left out. An equilibrium is one without friction: with it, it would
+        depend on the way there. A quasi-static run, or session, is such a way.
     damping
         Dissipation mu [1/s] (P-14).
     gravity
@@ -79,6 +82,7 @@ class Simulation:
         *,
         field: FieldSource | None = None,
         contact: Barrier | None = None,
+        friction: Friction | None = None,
         damping: float = 0.01,
         gravity: ArrayLike = (0.0, 0.0, 0.0),
         fluid_density: float = 0.0,
@@ -97,6 +101,7 @@ class Simulation:
             tip_load=(float(load[0]), float(load[1]), float(load[2])),
             release=release,
             background=UniformField() if field is None else field,
+            friction=friction,
         )
         narrowest = lumen.path().narrowest  # a side branch may be too narrow for the wire
         if narrowest <= self.system.keep_off:

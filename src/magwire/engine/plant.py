@@ -25,6 +25,7 @@ from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.history import copy_state
 from magwire.kernels.march import RETRIES, Tally, steer
 from magwire.kernels.newton import CONVERGED, Limits
+from magwire.kernels.wall.traction import SLID
 
 Array = NDArray[np.float64]
 
@@ -64,6 +65,7 @@ class Survey(NamedTuple):
     offset: float
     directors: Array
     twist: float
+    rubs: Array
     push: float
     torque: float
     stable: bool
@@ -295,8 +297,9 @@ class Plant:
     def survey(self) -> Survey:
         """What a record holds."""
         nodes, system = len(self.state.q), self.system
-        forces, clearance, directors = np.zeros((nodes, 3)), np.zeros(nodes), np.zeros((nodes, 3))
-        found = survey(self._body, forces, clearance, directors)
+        forces, directors, rubs = (np.zeros((nodes, 3)) for _ in range(3))
+        clearance = np.zeros(nodes)
+        found = survey(self._body, forces, clearance, directors, rubs)
         held, offset, twist, (middle, along, stable) = found
         clearance[: held + 1] = np.nan
         length = system.scales.length
@@ -311,6 +314,7 @@ class Plant:
             offset * length,
             directors[1:],
             twist,
+            rubs[1:] * system.scales.force,
             push,
             torque,
             bool(stable),
@@ -357,6 +361,9 @@ class Plant:
             clearance_along=seen.along,
             tip_force=float(np.linalg.norm(seen.forces[-1])),
             tip_offset=seen.offset,
+            friction_force=seen.rubs,
+            slip=state.contact[1:, SLID] * scales.length,
+            friction_work=float(state.spent[0]) * scales.force * scales.length,
             guide_twist=self.twist,
             tip_twist=seen.twist,
             material_director=seen.directors,

@@ -126,6 +126,12 @@ class Record:
         The smallest anywhere along the wire, nodes and edges [m]; NaN if all is on the guide.
     tip_force, tip_offset
         Size of the wall force on the tip node [N]; distance of the tip from the centreline [m].
+    friction_force
+        Of the wall on each node, along the wall, shape (nodes, 3) [N]; zero without friction.
+    slip
+        How far the surface of each node has slid on the wall so far, shape (nodes,) [m].
+    friction_work
+        What friction has taken so far [J].
     guide_twist, tip_twist
         Angle by which the guide has turned the wire, and by which the tip is turned, against a
         wire that is not twisted [rad].
@@ -155,6 +161,9 @@ class Record:
     clearance_along: float
     tip_force: float
     tip_offset: float
+    friction_force: Array
+    slip: Array
+    friction_work: float
     guide_twist: float
     tip_twist: float
     material_director: Array

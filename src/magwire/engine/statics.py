@@ -124,6 +124,7 @@ def find_equilibrium(
     hold: Hold | None = None,
 ) -> Equilibrium:
     """Static equilibrium at a fixed feed and field; see ``Simulation.equilibrium``."""
+    system = system.smooth
     feed, length = finite("Simulation", "feed", feed, "m"), system.wire.length
     if length < feed <= length * (1.0 + 1e-9):  # sections sum to the length but for rounding
         feed = length

@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.contact import Barrier
+from magwire.contact import Barrier, Friction
 from magwire.engine.record import Scales, patch_length
 from magwire.engine.wall import Firmness, divide, fit
 from magwire.errors import InputError, array, nonnegative, one_of
 from magwire.field import FieldSource, UniformField
+from magwire.kernels.arrays import Friction as FrictionArrays
 from magwire.kernels.arrays import Guide, Rod, State, Tube, Wall, Work
 from magwire.kernels.band import HALF_BANDWIDTH, WIDTH
 from magwire.kernels.centreline import LumenArrays
 from magwire.kernels.newton import Limits
+from magwire.kernels.wall.traction import CONTACT
 from magwire.lumen import Lumen
 from magwire.wire import Mesh, Wire, lay_out
 
@@ -32,6 +34,7 @@ SHARP_TOLERANCE = 1e-9  # force residual of an equilibrium, in EI/L^2
 ITERATIONS = 60  # of a time step
 MANY_ITERATIONS = 2000  # of an equilibrium, which may be far from its start
 NO_FIELD = UniformField()
+ELASTIC_SLIP = 1e-4  # at the cone, over the lumen's smallest radius (P-30)
 FIRST_SHIFT = 10.0  # first regularisation, in EI/(rho A L^4)
 
 
@@ -53,6 +56,8 @@ class System:
         Dead force on the tip, fixed in space, shape (3,) [N].
     background
         The outside field that is there without any input.
+    friction
+        Of the wall; none if None.
     release
         ``"sliding"``: the bending element at the guide's mouth counts with the part that is past
         the entrance; ``"node"``: node by node, as in the paper (P-15).
@@ -67,6 +72,7 @@ class System:
     release: Release = "sliding"
     tip_load: tuple[float, float, float] = (0.0, 0.0, 0.0)
     background: FieldSource = NO_FIELD
+    friction: Friction | None = None
 
     def __post_init__(self) -> None:
         nonnegative("Simulation", "damping", self.damping, "1/s")
@@ -240,7 +246,41 @@ class System:
             jet=np.zeros((self.wire.nodes + 1, 10)),
             between=between._replace(stiffness=between.stiffness / unit),
             tube=none if tube is None else tube,
+            friction=self._new_friction(),
         )
+
+    def _new_friction(self) -> FrictionArrays:
+        """Friction of the wall for the kernels, with nothing known of a step (P-32)."""
+        nodes, length = self.wire.nodes + 1, self.wire.length
+        friction = Friction() if self.friction is None else self.friction
+        static, kinetic = (
+            _ghost(self.mesh.shares @ values)
+            for values in friction.of_sections(len(self.wire.sections))
+        )
+        table = np.array(friction.along, dtype=np.float64).reshape(-1, 2) / (length, 1.0)
+        return FrictionArrays(
+            on=self.friction is not None and (bool(np.any(static)) or friction.drag > 0.0),
+            static=static,
+            kinetic=kinetic,
+            radius=_ghost(self.mesh.radius) / length,
+            slip=ELASTIC_SLIP * self.path.narrowest / length if self.lumen.branches else 1.0,
+            drag=friction.drag * length**4 / self.wire.bending_stiffness,
+            table=table,
+            path=self.path_arrays,
+            rate=np.zeros(1),
+            start=np.zeros((nodes, 7)),
+            load=np.zeros((nodes, 4)),
+            anchor=np.zeros((nodes, 3)),
+            turning=np.zeros((nodes, 3)),
+            leaning=np.zeros((nodes, 3)),
+            factor=np.ones(nodes),
+            slides=np.zeros(nodes, dtype=np.bool_),
+        )
+
+    @cached_property
+    def smooth(self) -> System:
+        """The same without friction."""
+        return self if self.friction is None else replace(self, friction=None)
 
     def new_tube(self, path: Lumen, radius: float) -> Tube:
         """The virtual tube of a radius [m] around the centreline of a path (P-19).
@@ -275,6 +315,8 @@ class System:
             guide=np.zeros(2),
             held=np.array([nodes - 1]),
             inputs=np.zeros(3),
+            contact=np.zeros((nodes, CONTACT)),
+            spent=np.zeros(1),
         )
 
     def new_work(self) -> Work:

@@ -100,6 +100,38 @@ class Between(NamedTuple):
     clear: Array
 
 
+class Friction(NamedTuple):
+    """Friction of the wall on each node, over a time step; see ``wall.traction``.
+
+    on: whether there is any. static, kinetic [N+1] coefficients; radius [N+1] of the wire's
+    surface; slip: elastic slip at the static cone; drag: viscous force per length and speed; table
+    [k, 2] arc parameter on ``path`` and factor of the coefficients there.
+
+    Of the step: rate [1] one over its length; start [N+1, 7] position and angle at its beginning,
+    and the way between the nodes on either side; load [N+1, 4] normal and normal force; anchor
+    [N+1, 3] elastic slip at its beginning; turning, leaning [N+1, 3] displacement of the surface
+    per angle about the axis, and as the nodes beside it move along the normal; factor [N+1];
+    slides [N+1].
+    """
+
+    on: bool
+    static: Array
+    kinetic: Array
+    radius: Array
+    slip: float
+    drag: float
+    table: Array
+    path: LumenArrays
+    rate: Array
+    start: Array
+    load: Array
+    anchor: Array
+    turning: Array
+    leaning: Array
+    factor: Array
+    slides: Flag
+
+
 class Wall(NamedTuple):
     """Barrier stiffness and activation gap, and what is known of the gap near each node.
 
@@ -114,6 +146,7 @@ class Wall(NamedTuple):
     jet: Array
     between: Between
     tube: Tube
+    friction: Friction
 
 
 class State(NamedTuple):
@@ -122,7 +155,8 @@ class State(NamedTuple):
     q [N+1, 4] configuration (x, y, z, theta), and what follows from it along its path: tangent
     [N, 3], length [N], director [N, 3] (reference frame d1), twist [N+1] reference twist. velocity
     [N+1, 4]; guide [2] insertion and twist of the guide; held [1] last node that the guide holds;
-    inputs [m] of the actuator.
+    inputs [m] of the actuator; contact [N+1, 9] what friction remembers of each node, its columns
+    named in ``wall.traction``; spent [1] energy that friction took so far.
     """
 
     q: Array
@@ -134,6 +168,8 @@ class State(NamedTuple):
     guide: Array
     held: Index
     inputs: Array
+    contact: Array
+    spent: Array
 
 
 class Mouth(NamedTuple):

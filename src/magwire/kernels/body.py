@@ -21,6 +21,7 @@ from magwire.kernels.march import Drive, Tally, march
 from magwire.kernels.newton import Limits, newton
 from magwire.kernels.observe import observe, off_centreline, read_frames
 from magwire.kernels.vectors import row
+from magwire.kernels.wall.traction import begin, tractions
 
 
 class Parts(NamedTuple):
@@ -73,7 +74,7 @@ def rest(body, limits):
 
 
 @entry
-def survey(body, forces, clearance, directors):
+def survey(body, forces, clearance, directors, rubs):
     """Put what the guide holds in its place and read off what a record holds; see ``observe``.
 
     Returns the last held node, the tip's distance from the centreline and its twist, and what
@@ -81,6 +82,10 @@ def survey(body, forces, clearance, directors):
     """
     p = body.parts
     mouth = mouth_of(p.model[0], p.guide, p.state)
+    friction = p.model[2].friction
+    if friction.on:
+        begin(friction, p.state, mouth.held, 1.0)
+        tractions(p.model[0], friction, p.state, rubs)
     place_held(p.model[0], p.guide, p.state, 0, mouth.held, p.state.guide[0], p.state.guide[1])
     found = observe(p.model, p.state, mouth, p.work, forces, clearance)
     tip = row(p.state.q, p.state.q.shape[0] - 1)

@@ -32,3 +32,7 @@ def copy_state(source, target):
     target.held[0] = source.held[0]
     for k in range(source.inputs.shape[0]):
         target.inputs[k] = source.inputs[k]
+    for i in range(source.contact.shape[0]):
+        for c in range(source.contact.shape[1]):
+            target.contact[i, c] = source.contact[i, c]
+    target.spent[0] = source.spent[0]

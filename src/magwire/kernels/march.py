@@ -11,7 +11,7 @@ from magwire.kernels.assembly import clear
 from magwire.kernels.frames import update_frames
 from magwire.kernels.guide import change_held, find_mouth, place_held
 from magwire.kernels.history import copy_configuration, copy_state
-from magwire.kernels.newton import CONVERGED, Limits, newton, take_step
+from magwire.kernels.newton import CONVERGED, TOO_MANY_ITERATIONS, Limits, newton, take_step
 from magwire.kernels.scatter import add_vector
 from magwire.kernels.vectors import dot, row
 from magwire.kernels.wall.between import press_edge
@@ -19,9 +19,11 @@ from magwire.kernels.wall.collision import allowed_part
 from magwire.kernels.wall.contact import add_walls
 from magwire.kernels.wall.push import press
 from magwire.kernels.wall.slide import slide
+from magwire.kernels.wall.traction import begin, keep, reload
 
 COARSE = 6  # a step may be cut in half this many times before its parts follow the wall
 RETRIES = 10  # and this many times in all
+LOADINGS = 30  # times that the normal forces of a step with friction are read off its end
 
 
 class Drive(NamedTuple):
@@ -125,13 +127,34 @@ def time_step(model, guide, state, work, limits, slides, start, end, dt, drive):
     limits = Limits(
         limits.tolerance, limits.iterations, limits.shift, limits.step, limits.turn, slides
     )
-    return newton(model, work.ahead, Mouth(held, fraction), motion, work, limits)
+    mouth = Mouth(held, fraction)
+    if not wall.friction.on:
+        return newton(model, work.ahead, mouth, motion, work, limits)
+    begin(wall.friction, state, held, dt)
+    return rub(model, state, mouth, motion, work, limits)
+
+
+@kernel
+def rub(model, state, mouth, motion, work, limits):
+    """Newton's method with friction: again until the normal forces are those of the step's end."""
+    rod, _, wall, lumen = model
+    iterations, factorisations = 0, 0
+    for _ in range(LOADINGS):
+        outcome = newton(model, work.ahead, mouth, motion, work, limits)
+        status, taken, factored, residual, nearest = outcome
+        iterations += taken
+        factorisations += factored
+        if status != CONVERGED or reload(rod, lumen, wall, state, work.ahead, work):
+            return status, iterations, factorisations, residual, nearest
+    return TOO_MANY_ITERATIONS, iterations, factorisations, residual, nearest
 
 
 @part
-def accept(state, work, dt, end):
+def accept(friction, state, work, dt, end):
     """Take over the step in ``work.ahead``: configuration, velocities, and where the guide is."""
     held = state.held[0]
+    if friction.on:
+        keep(friction, state, work.ahead)
     for i in range(held, state.q.shape[0]):
         for c in range(4):
             state.velocity[i, c] = (work.ahead.q[i, c] - state.q[i, c]) / dt
@@ -213,7 +236,7 @@ def march(model, guide, state, work, limits, drive, tally):
                     slides = True
                 tally.counts[3] += 1
                 continue
-            accept(state, work, dt, end)
+            accept(model[2].friction, state, work, dt, end)
             touches = touches or nearest < inf
             done += share
             if slides and halvings > begun and done % (2.0 * share) == 0.0:

@@ -105,7 +105,7 @@ class Model:
         self.reach = min(system.wire.length, MAGNETS * magnets)
         self.solves = 0
         tube = None if tube_radius is None else system.new_tube(path, tube_radius)
-        self._plant = Plant(system, tube=tube)
+        self._plant = Plant(system.smooth, tube=tube)
         self._limits = system.step_limits()
         self._tube = path.arrays(system.wire.length)
         rows = len(self._plant.work.step)

@@ -108,6 +108,21 @@ VARIABLES: dict[str, Variable] = {
     "tip_offset": Variable(
         ("time",), "m", "distance of the tip from the centreline", lambda r, _: r.tip_offset
     ),
+    "friction_force": Variable(
+        ("time", "node", "xyz"),
+        "N",
+        "force of the wall on the wire along the wall",
+        lambda r, _: r.friction_force,
+    ),
+    "slip": Variable(
+        ("time", "node"),
+        "m",
+        "how far the wire's surface has slid on the wall so far",
+        lambda r, _: r.slip,
+    ),
+    "friction_work": Variable(
+        ("time",), "J", "what friction has taken so far", lambda r, _: r.friction_work
+    ),
     "guide_twist": Variable(
         ("time",),
         "rad",

@@ -39,6 +39,8 @@ class Mesh:
         Of each node's cell: EI/l and GJ/l [N m], integrated rest curvature, shape (nodes, 2).
     mass, volume, radius
         Of each node's cell: mass [kg], volume of material [m^3], outer radius [m].
+    shares
+        Parts of each node's cell that belong to the sections, shape (nodes, sections).
     """
 
     station: Array
@@ -53,6 +55,7 @@ class Mesh:
     mass: Array
     volume: Array
     radius: Array
+    shares: Array
 
     @property
     def rest_curvature(self) -> Array:
@@ -145,6 +148,11 @@ class Cells:
         across = self.turned(self.station, heights[:, :2])
         return np.concatenate((across, self.spread(self.station, heights[:, 2:])), axis=1)
 
+    def shares(self, sections: int) -> Array:
+        """Parts of each cell that belong to the sections, shape (nodes, sections)."""
+        found: Array = self.spread(self.bounds, np.eye(sections)[self.owner])
+        return found / np.diff(self.bounds)[:, None]
+
     def radius(self) -> Array:
         """Outer radius at each node [m]."""
         pieces = [self.pieces[i] for i in self.which]
@@ -175,4 +183,5 @@ def lay_out(wire: Wire) -> Mesh:
         mass=cells.total(bounds, lambda s: s.density * s.area),
         volume=cells.total(bounds, lambda s: s.area),
         radius=cells.radius(),
+        shares=cells.shares(len(wire.sections)),
     )

@@ -1,0 +1,300 @@
+"""Friction of the wall on every node that it presses, over a time step (P-29 to P-33).
+
+The normal forces are those at the end of the step: the step is solved with the forces as they are
+known, they are read off its end, and so on until they no longer change. In between they are given,
+so that the step minimises a potential. What a node keeps from step to step is its elastic slip.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from magwire.kernels._jit import kernel, part
+from magwire.kernels.blocks import outer, sym_add, sym_identity, sym_outer, sym_pair
+from magwire.kernels.scatter import add_block, add_column, add_diagonal, add_row, add_vector
+from magwire.kernels.vectors import add, combine, dot, norm, row, scale, sub
+from magwire.kernels.wall.contact import add_walls
+from magwire.kernels.wall.friction import (
+    along_wall,
+    by_turning,
+    lost,
+    potential,
+    returned,
+    spread,
+    transported,
+    under_load,
+)
+from magwire.kernels.wall.gap import gap_value
+
+# Columns of State.contact: elastic slip, the wall's normal, its force, whether the node slides, and
+# how far it has slid.
+SLIP, NORMAL, LOAD, SLIDES, SLID = 0, 3, 6, 7, 8
+CONTACT = 9
+SETTLED = 1e-3  # change of a normal force, over the largest, at which the forces are known (P-31)
+
+
+@kernel
+def angle_at(state, i):
+    """Angle of the wire about its axis at a node: the mean of its edges'."""
+    last = state.length.shape[0] - 1
+    before = state.q[i - 1, 3]
+    return before if i > last else 0.5 * (before + state.q[i, 3])
+
+
+@part
+def axis_at(state, i):
+    """Direction of the wire at a node."""
+    last = state.length.shape[0] - 1
+    before = row(state.tangent, i - 1)
+    if i > last:
+        return before
+    both = add(before, row(state.tangent, i))
+    return scale(1.0 / norm(both), both)
+
+
+@kernel
+def span_at(state, i):
+    """Length of wire between the nodes on either side of a node."""
+    last = state.length.shape[0] - 1
+    return state.length[i - 1] + (0.0 if i > last else state.length[i])
+
+
+@kernel
+def spread_at(state, i):
+    """From the node before a node to the one after it; to the tip itself."""
+    return sub(row(state.q, min(i + 1, state.q.shape[0] - 1)), row(state.q, i - 1))
+
+
+@kernel
+def factor_at(friction, x):
+    """Factor of the coefficients at a place in the lumen."""
+    table = friction.table
+    if len(table) == 0:
+        return 1.0
+    _, arc, branch, _ = gap_value(friction.path, x[0], x[1], x[2])
+    last = table.shape[0] - 1
+    if branch < 0 or arc <= table[0, 0]:
+        return table[0, 1]
+    for k in range(last):
+        if arc < table[k + 1, 0]:
+            share = (arc - table[k, 0]) / (table[k + 1, 0] - table[k, 0])
+            return (1.0 - share) * table[k, 1] + share * table[k + 1, 1]
+    return table[last, 1]
+
+
+@kernel
+def cone_at(friction, i):
+    """Largest traction on a node, and the stiffness of its stick."""
+    load, factor = friction.load[i, 3], friction.factor[i]
+    full = friction.static[i] * factor * load
+    mu = friction.kinetic[i] if friction.slides[i] else friction.static[i]
+    return mu * factor * load, full / friction.slip
+
+
+@kernel
+def set_load(friction, state, i, n, size):
+    """Take a normal force for known: the elastic slip of the step's beginning is carried to it."""
+    for c in range(3):
+        friction.load[i, c] = n[c]
+    friction.load[i, 3] = size
+    kept = state.contact[i]
+    before = kept[LOAD]
+    slip = (0.0, 0.0, 0.0)
+    if before > 0.0 and size > 0.0:
+        old = (kept[NORMAL], kept[NORMAL + 1], kept[NORMAL + 2])
+        slip = transported((kept[SLIP], kept[SLIP + 1], kept[SLIP + 2]), old, n)
+        slip = under_load(slip, before, size)
+    t, radius = axis_at(state, i), friction.radius[i]
+    turning = by_turning(n, t, radius)
+    leaning = along_wall(n, scale(radius / span_at(state, i), t))
+    for c in range(3):
+        friction.anchor[i, c] = slip[c]
+        friction.turning[i, c] = turning[c]
+        friction.leaning[i, c] = leaning[c]
+
+
+@kernel
+def begin(friction, state, held, dt):
+    """Begin a step of length dt at a state, with the normal forces that it has."""
+    friction.rate[0] = 1.0 / dt
+    for i in range(held + 1, state.q.shape[0]):
+        for c in range(3):
+            friction.start[i, c] = state.q[i, c]
+        friction.start[i, 3] = angle_at(state, i)
+        beside = spread_at(state, i)
+        for c in range(3):
+            friction.start[i, 4 + c] = beside[c]
+        kept = state.contact[i]
+        friction.slides[i] = kept[SLIDES] > 0.0
+        friction.factor[i] = factor_at(friction, row(state.q, i)) if kept[LOAD] > 0.0 else 1.0
+        set_load(friction, state, i, (kept[NORMAL], kept[NORMAL + 1], kept[NORMAL + 2]), kept[LOAD])
+
+
+@kernel
+def reach_at(friction, state, i):
+    """Elastic slip at the step's beginning and the surface's way along the wall since (P-29)."""
+    n = row(friction.load, i)
+    moved = along_wall(n, sub(row(state.q, i), row(friction.start, i)))
+    turned = angle_at(state, i) - friction.start[i, 3]
+    before = (friction.start[i, 4], friction.start[i, 5], friction.start[i, 6])
+    leant = dot(n, sub(spread_at(state, i), before))
+    rolled = combine(turned, row(friction.turning, i), leant, row(friction.leaning, i))
+    way = add(moved, rolled)
+    return add(row(friction.anchor, i), way), way
+
+
+@part
+def pull_at(rod, friction, state, i):
+    """Energy, gradient and Hessian by the way of a node's surface."""
+    n = row(friction.load, i)
+    reach, way = reach_at(friction, state, i)
+    cone, stiffness = cone_at(friction, i)
+    energy, pull, block = 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if stiffness > 0.0:
+        energy, pull, block = potential(reach, n, cone, stiffness)
+    if friction.drag > 0.0:
+        thick = friction.drag * rod.cell[i] * friction.rate[0]
+        energy += 0.5 * thick * dot(way, way)
+        pull = combine(1.0, pull, thick, way)
+        block = sym_add(block, sym_add(sym_identity(thick), sym_outer(-thick, n)))
+    return energy, pull, block
+
+
+@part
+def add_friction(rod, friction, state, held, gradient, band):
+    """What friction adds to a step's potential: see ``friction.potential``.
+
+    The surface moves with its node, with the angles of the edges beside it, and with the nodes
+    beside it, since the wire leans as they move along the normal.
+    """
+    energy = 0.0
+    tip = state.q.shape[0] - 1
+    for i in range(held + 1, tip + 1):
+        if friction.load[i, 3] <= 0.0:
+            continue
+        value, pull, block = pull_at(rod, friction, state, i)
+        energy += value
+        n, turning, leaning = (
+            row(friction.load, i),
+            row(friction.turning, i),
+            row(friction.leaning, i),
+        )
+        moment, mixed, twice = spread(pull, block, turning)
+        lean, bent, double = spread(pull, block, row(friction.leaning, i))
+        share, after = (0.5, i + 1) if i < tip else (1.0, i)
+        add_vector(gradient, i, 1.0, pull)
+        add_vector(gradient, after, lean, n)
+        add_vector(gradient, i - 1, -lean, n)
+        gradient[i - 1, 3] += share * moment
+        if i < tip:
+            gradient[i, 3] += share * moment
+        if len(band) > 0:
+            r = 4 * (i - held + 1)
+            add_diagonal(band, r, block)
+            add_column(band, r, r - 1, scale(share, mixed))
+            band[r - 1, 0] += share * share * twice
+            if i < tip:
+                add_row(band, r + 3, r, scale(share, mixed))
+                band[r + 3, 0] += share * share * twice
+                band[r - 1, 4] += share * share * twice
+            both = share * dot(turning, bent)
+            _add_leaning(band, r, n, bent, double, both, i < tip)
+    return energy
+
+
+@part
+def _add_leaning(band, r, n, bent, double, both, inside):
+    """Second derivatives by the nodes beside one at row r: how they move the surface is along n.
+
+    bent: by the node and the lean; double: by the lean twice; both: by lean and an edge's angle.
+    """
+    add_diagonal(band, r - 4, sym_outer(double, n))
+    add_block(band, r, r - 4, outer(-1.0, bent, n))
+    add_row(band, r - 1, r - 4, scale(-both, n))
+    if inside:
+        add_row(band, r + 3, r - 4, scale(-both, n))
+        add_diagonal(band, r + 4, sym_outer(double, n))
+        add_block(band, r + 4, r, outer(1.0, n, bent))
+        add_block(band, r + 4, r - 4, outer(-double, n, n))
+        add_column(band, r + 4, r - 1, scale(both, n))
+        add_column(band, r + 4, r + 3, scale(both, n))
+    else:
+        add_diagonal(band, r, sym_add(sym_outer(double, n), sym_pair(1.0, bent, n)))
+        add_block(band, r, r - 4, outer(-double, n, n))
+        add_column(band, r, r - 1, scale(both, n))
+
+
+@kernel
+def read_loads(rod, lumen, wall, state, held, work):
+    """The wall's forces on the nodes, as minus the gradient, into ``work.gradient``."""
+    for i in range(held - 1, state.q.shape[0]):
+        for c in range(4):
+            work.gradient[i, c] = 0.0
+    add_walls(rod, lumen, wall, state, held, work.gradient, work.no_band)
+
+
+@kernel
+def reload(rod, lumen, wall, state, ahead, work):
+    """Take the normal forces at the end of a step for known; whether they were (P-31).
+
+    A node that has left its static cone slides from now on, and one that slides and would not
+    reach its kinetic one sticks.
+    """
+    friction, held = wall.friction, state.held[0]
+    read_loads(rod, lumen, wall, ahead, held, work)
+    largest, change, turned = 0.0, 0.0, False
+    for i in range(held + 1, state.q.shape[0]):
+        push = row(work.gradient, i)
+        size = sqrt(dot(push, push))
+        if size == 0.0 and friction.load[i, 3] == 0.0:
+            continue
+        largest = max(largest, size)
+        change = max(change, abs(size - friction.load[i, 3]))
+        n = scale(-1.0 / size, push) if size > 0.0 else row(friction.load, i)
+        fresh = friction.load[i, 3] == 0.0
+        if not fresh:
+            reach, _ = reach_at(friction, ahead, i)
+            cone, stiffness = cone_at(friction, i)
+            slides = stiffness * norm(reach) > cone
+            if slides != friction.slides[i] and friction.kinetic[i] < friction.static[i]:
+                turned = True
+            friction.slides[i] = slides
+        friction.factor[i] = factor_at(friction, row(ahead.q, i))
+        set_load(friction, state, i, n, size)
+    return change <= SETTLED * largest and not turned
+
+
+@kernel
+def keep(friction, state, ahead):
+    """Carry the elastic slip over to the end of a step, and count what friction took."""
+    for i in range(1, state.q.shape[0]):
+        kept = state.contact[i]
+        size = friction.load[i, 3] if i > state.held[0] else 0.0
+        if size == 0.0:
+            for c in range(SLID):
+                kept[c] = 0.0
+            continue
+        reach, way = reach_at(friction, ahead, i)
+        cone, stiffness = cone_at(friction, i)
+        slip = (0.0, 0.0, 0.0)
+        if stiffness > 0.0:
+            slip = returned(reach, cone, stiffness)
+            state.spent[0] += lost(reach, cone, stiffness)
+        for c in range(3):
+            kept[SLIP + c] = slip[c]
+            kept[NORMAL + c] = friction.load[i, c]
+        kept[LOAD] = size
+        kept[SLIDES] = 1.0 if friction.slides[i] else 0.0
+        kept[SLID] += norm(sub(reach, slip)) if stiffness > 0.0 else norm(way)
+
+
+@kernel
+def tractions(rod, friction, state, forces):
+    """Fill ``forces`` [N+1, 3] with the friction of the wall on the nodes of a state at rest."""
+    for i in range(state.q.shape[0]):
+        for c in range(3):
+            forces[i, c] = 0.0
+        if i > state.held[0] and friction.load[i, 3] > 0.0:
+            _, pull, _ = pull_at(rod, friction, state, i)
+            for c in range(3):
+                forces[i, c] = -pull[c]
