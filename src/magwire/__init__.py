@@ -11,6 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from magwire.contact import Barrier as Barrier
+    from magwire.devices import Device as Device
+    from magwire.devices import load as load_device
+    from magwire.devices import names as device_names
     from magwire.engine.feed import Feed as Feed
     from magwire.engine.hold import Hold as Hold
     from magwire.engine.statics import Equilibrium as Equilibrium
@@ -47,6 +50,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Barrier": ("magwire.contact", "Barrier"),
     "ConvergenceError": ("magwire.errors", "ConvergenceError"),
     "Demands": ("magwire.navigate.demands", "Demands"),
+    "Device": ("magwire.devices", "Device"),
     "Equilibrium": ("magwire.engine.statics", "Equilibrium"),
     "Feed": ("magwire.engine.feed", "Feed"),
     "GradientField": ("magwire.field", "GradientField"),
@@ -70,6 +74,8 @@ _HOMES: dict[str, tuple[str, str]] = {
     "UniformField": ("magwire.field", "UniformField"),
     "Vessel": ("magwire.vessel", "Vessel"),
     "Wire": ("magwire.wire", "Wire"),
+    "device_names": ("magwire.devices", "names"),
+    "load_device": ("magwire.devices", "load"),
     "load_scenario": ("magwire.scenario", "load"),
     "plan": ("magwire.planning", "plan"),
     "run_many": ("magwire.many", "run_many"),
@@ -80,6 +86,7 @@ __all__ = [
     "Barrier",
     "ConvergenceError",
     "Demands",
+    "Device",
     "Equilibrium",
     "Feed",
     "GradientField",
@@ -104,6 +111,8 @@ __all__ = [
     "Vessel",
     "Wire",
     "__version__",
+    "device_names",
+    "load_device",
     "load_scenario",
     "plan",
     "run_many",
