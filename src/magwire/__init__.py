@@ -11,6 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from magwire.contact import Barrier as Barrier
+    from magwire.contact import Friction as Friction
+    from magwire.devices import Device as Device
+    from magwire.devices import load as load_device
+    from magwire.devices import names as device_names
     from magwire.engine.command import Command as Command
     from magwire.engine.feed import Feed as Feed
     from magwire.engine.hold import Hold as Hold
@@ -59,11 +63,13 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Command": ("magwire.engine.command", "Command"),
     "ConvergenceError": ("magwire.errors", "ConvergenceError"),
     "Demands": ("magwire.navigate.demands", "Demands"),
+    "Device": ("magwire.devices", "Device"),
     "Ending": ("magwire.operate", "Ending"),
     "Equilibrium": ("magwire.engine.statics", "Equilibrium"),
     "Feed": ("magwire.engine.feed", "Feed"),
     "FieldSource": ("magwire.field", "FieldSource"),
     "ForceLimit": ("magwire.operate", "ForceLimit"),
+    "Friction": ("magwire.contact", "Friction"),
     "GradientField": ("magwire.field", "GradientField"),
     "Hold": ("magwire.engine.hold", "Hold"),
     "InputError": ("magwire.errors", "InputError"),
@@ -92,6 +98,8 @@ _HOMES: dict[str, tuple[str, str]] = {
     "UniformField": ("magwire.field", "UniformField"),
     "Vessel": ("magwire.vessel", "Vessel"),
     "Wire": ("magwire.wire", "Wire"),
+    "device_names": ("magwire.devices", "names"),
+    "load_device": ("magwire.devices", "load"),
     "load_scenario": ("magwire.scenario", "load"),
     "plan": ("magwire.planning", "plan"),
     "run_many": ("magwire.many", "run_many"),
@@ -103,11 +111,13 @@ __all__ = [
     "Command",
     "ConvergenceError",
     "Demands",
+    "Device",
     "Ending",
     "Equilibrium",
     "Feed",
     "FieldSource",
     "ForceLimit",
+    "Friction",
     "GradientField",
     "Hold",
     "InputError",
@@ -137,6 +147,8 @@ __all__ = [
     "Vessel",
     "Wire",
     "__version__",
+    "device_names",
+    "load_device",
     "load_scenario",
     "plan",
     "run_many",

@@ -6,7 +6,6 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from magwire.verify.references.sliding import slider
 from numpy.typing import NDArray
 
 from magwire.kernels.wall.friction import (
@@ -19,6 +18,7 @@ from magwire.kernels.wall.friction import (
     transported,
     under_load,
 )
+from magwire.verify.references.sliding import slider
 
 Array = NDArray[np.float64]
 RNG = np.random.default_rng(17)

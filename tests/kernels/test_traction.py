@@ -30,6 +30,7 @@ def rubbing(seed: int, slide: float, *, drag: float = 0.0) -> Case:
     where = replace(system(), friction=friction)
     rod = random_rod(rng, where.rod, ())
     wall, state = where.new_wall(), random_state(rng, where, HELD, 0.1)
+    wall = wall._replace(friction=wall.friction._replace(slip=0.01))
     state.held[0] = HELD
     begin(wall.friction, state, HELD, 0.5)
     normals = rng.normal(size=(len(state.q), 3))

@@ -10,6 +10,7 @@ from cyclopts import App, CycloptsError
 
 import magwire
 from magwire.cli.benchmarks import bench
+from magwire.cli.devices import devices
 from magwire.cli.evidence import reproduce, verify
 from magwire.cli.health import doctor
 from magwire.cli.outlets import plan_outlets
@@ -38,7 +39,20 @@ app = App(
     result_action="return_value",
     suppress_keyboard_interrupt=False,  # what is said then is said below
 )
-for command in (animate, bench, doctor, lumen, plot, replay, reproduce, run, schema, sweep, verify):
+for command in (
+    animate,
+    bench,
+    devices,
+    doctor,
+    lumen,
+    plot,
+    replay,
+    reproduce,
+    run,
+    schema,
+    sweep,
+    verify,
+):
     app.command(command)
 app.command(list_scenarios, name="list")
 app.command(plan_outlets, name="plan")

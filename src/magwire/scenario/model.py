@@ -54,7 +54,7 @@ if TYPE_CHECKING:
 
 def _which_wire(value: Any) -> str:
     given = value if isinstance(value, dict) else vars(value) if _is_model(value) else {}
-    return "sections" if "sections" in given else "uniform"
+    return "sections" if {"sections", "device"} & set(given) else "uniform"
 
 
 def _which_feed(value: Any) -> str:

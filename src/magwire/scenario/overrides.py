@@ -19,7 +19,7 @@ def apply(raw: dict[str, Any], overrides: Sequence[str]) -> list[str]:
         ``key=value`` each; the key with dots and, in lists, numbers from zero
         (``wire.sections.0.radius``); the value as in TOML, where a quantity needs no quotes.
         Another ``navigate.method`` than the scenario's starts that table anew, since the keys of
-        one method are faults in another.
+        one method are faults in another; so does a ``wire.device``.
 
     Returns
     -------
@@ -39,13 +39,19 @@ def apply(raw: dict[str, Any], overrides: Sequence[str]) -> list[str]:
 
 
 def _restart(raw: dict[str, Any], overrides: Sequence[str]) -> None:
-    """Forget how a scenario is steered if an override says that it is steered in another way."""
+    """Forget how a scenario is steered if an override says that it is steered in another way.
+
+    Likewise its wire, if it is to be a device.
+    """
     table = raw.get("navigate")
     for text in overrides:
         key, _, value = text.partition("=")
-        method = [part.strip() for part in key.split(".")] == ["navigate", "method"]
+        path = [part.strip() for part in key.split(".")]
+        method = path == ["navigate", "method"]
         if method and isinstance(table, dict) and table.get("method") != _value(value.strip()):
             raw["navigate"] = {}
+        if path == ["wire", "device"]:
+            raw["wire"] = {}
 
 
 def _value(text: str) -> Any:

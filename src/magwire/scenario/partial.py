@@ -45,7 +45,7 @@ def _make(name: str, given: dict[str, Any]) -> type[BaseModel]:
     selector, makes = CHOICES[name]
     if selector:
         return makes[given.get(selector, next(iter(makes)))]
-    rulers = {"wire": ("sections",), "feed": ("table", "twist_table")}[name]
+    rulers = {"wire": ("sections", "device"), "feed": ("table", "twist_table")}[name]
     first, second = makes.values()
     return second if any(ruler in given for ruler in rulers) else first
 

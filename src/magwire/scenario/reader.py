@@ -13,6 +13,7 @@ from pydantic import ValidationError
 from magwire.errors import ScenarioError
 from magwire.files import TextFaultError, parse_toml, read_text
 from magwire.scenario.checks import cross_faults
+from magwire.scenario.devices import inline as inline_device
 from magwire.scenario.faults import Key, key_of, sentence, suggestion
 from magwire.scenario.model import Scenario
 from magwire.scenario.overrides import apply
@@ -93,6 +94,11 @@ def parse(
         _feed_to_target(raw)
     elif isinstance(lumen, dict) and lumen.get("shape") == "vessel":
         faults += needing_a_file(lumen)
+    wire = raw.get("wire")
+    if isinstance(wire, dict) and "device" in wire and "sections" not in wire:
+        raw["wire"], more = inline_device(wire)
+        faults += more
+        unread |= {("wire",)} if more else set()
     navigate = raw.get("navigate")
     if isinstance(navigate, dict) and needs_file(navigate):
         raw["navigate"], more = inline_schedule(navigate, folder or Path())

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from magwire.scenario.devices import schema as device_schema
 from magwire.scenario.quantity import (
     Acceleration,
     Angle,
@@ -167,8 +168,11 @@ class SectionTable(MakeTable):
 
 
 class SectionedWire(Table):
-    """A wire of several sections, the proximal one first."""
+    """A wire of several sections, the proximal one first; ``device`` says where they are from."""
 
+    model_config = ConfigDict(json_schema_extra=device_schema)
+
+    device: str = ""
     nodes: Nodes
     sections: Annotated[tuple[SectionTable, ...], at_least_one("section")]
 

@@ -174,11 +174,7 @@ def add_friction(rod, friction, state, held, gradient, band):
             continue
         value, pull, block = pull_at(rod, friction, state, i)
         energy += value
-        n, turning, leaning = (
-            row(friction.load, i),
-            row(friction.turning, i),
-            row(friction.leaning, i),
-        )
+        n, turning = row(friction.load, i), row(friction.turning, i)
         moment, mixed, twice = spread(pull, block, turning)
         lean, bent, double = spread(pull, block, row(friction.leaning, i))
         share, after = (0.5, i + 1) if i < tip else (1.0, i)
