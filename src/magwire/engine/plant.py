@@ -23,8 +23,9 @@ from magwire.kernels.body import Parts, advance, look, make_body, rest, survey
 from magwire.kernels.glance import GLANCE
 from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.history import copy_state
-from magwire.kernels.march import RETRIES, Tally, steer
+from magwire.kernels.march import RETRIES, Tally
 from magwire.kernels.newton import CONVERGED, Limits
+from magwire.kernels.sources.drive import drive
 from magwire.kernels.wall.traction import SLID
 
 Array = NDArray[np.float64]
@@ -151,7 +152,10 @@ class Plant:
     @inputs.setter
     def inputs(self, inputs: Array) -> None:
         self.state.inputs[:] = inputs
-        steer(self.field, self.state.inputs)
+        self._steer()
+
+    def _steer(self) -> None:
+        drive(self.field.sources, self.state.inputs, self.field.strength)
 
     @property
     def released(self) -> bool:
@@ -223,7 +227,8 @@ class Plant:
             now.gradient.copy(),
             now.origin.copy(),
             now.uniform.copy(),
-            now.steered.copy(),
+            now.sources,
+            now.strength.copy(),
         )
 
     def _take_over(self, now: Field) -> None:
@@ -266,7 +271,7 @@ class Plant:
         self.state.velocity[:] = 0.0
         if not self.source.affine:
             self.sample_again()
-        steer(self.field, self.state.inputs)
+        self._steer()
 
     def snapshot(self) -> Snapshot:
         """What it takes to come back here."""
@@ -282,7 +287,7 @@ class Plant:
             value[:] = kept
         self.time = snapshot.time
         self.status, self.message = Status.CONVERGED, ""
-        steer(self.field, self.state.inputs)
+        self._steer()
 
     @property
     def mouth(self) -> Mouth:

@@ -72,7 +72,8 @@ def _loads(point: Point, wrt: Input) -> tuple[Array, tuple[int, ...], float]:
                     gradient=point.field.gradient + unit.ravel(),
                     origin=middle,
                     uniform=np.array([False]),
-                    steered=point.field.steered,
+                    sources=point.field.sources,
+                    strength=point.field.strength,
                 )
             )
         return _differences(point, fields, work), (3, 3), 1.0 / system.wire.length

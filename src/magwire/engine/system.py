@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Literal
+from typing import Any, Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,8 @@ from magwire.kernels.arrays import Guide, Rod, State, Tube, Wall, Work
 from magwire.kernels.band import HALF_BANDWIDTH, WIDTH
 from magwire.kernels.centreline import LumenArrays
 from magwire.kernels.newton import Limits
+from magwire.kernels.sources.drive import drive
+from magwire.kernels.sources.table import Sources, new_strength, no_sources
 from magwire.kernels.wall.traction import CONTACT
 from magwire.lumen import Lumen
 from magwire.wire import Mesh, Wire, lay_out
@@ -34,8 +36,17 @@ SHARP_TOLERANCE = 1e-9  # force residual of an equilibrium, in EI/L^2
 ITERATIONS = 60  # of a time step
 MANY_ITERATIONS = 2000  # of an equilibrium, which may be far from its start
 NO_FIELD = UniformField()
+UNIFORM = no_sources(3)._replace(affine=np.eye(4, 12) * [[1.0], [1.0], [1.0], [0.0]])
 ELASTIC_SLIP = 1e-4  # at the cone, over the lumen's smallest radius (P-30)
 FIRST_SHIFT = 10.0  # first regularisation, in EI/(rho A L^4)
+
+
+class Actuator(Protocol):
+    """What makes a field from inputs (P-24)."""
+
+    def arrays(self) -> Sources:
+        """Its sources for the kernels, in SI units."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -58,6 +69,8 @@ class System:
         The outside field that is there without any input.
     friction
         Of the wall; none if None.
+    actuator
+        What makes a field from inputs; three components of a uniform flux density [T] if None.
     release
         ``"sliding"``: the bending element at the guide's mouth counts with the part that is past
         the entrance; ``"node"``: node by node, as in the paper (P-15).
@@ -73,6 +86,7 @@ class System:
     tip_load: tuple[float, float, float] = (0.0, 0.0, 0.0)
     background: FieldSource = NO_FIELD
     friction: Friction | None = None
+    actuator: Actuator | None = None
 
     def __post_init__(self) -> None:
         nonnegative("Simulation", "damping", self.damping, "1/s")
@@ -163,6 +177,28 @@ class System:
     def path(self) -> Lumen:
         """The way from the entrance to the lumen's target, as a single tube."""
         return self.lumen.path()
+
+    @cached_property
+    def sources(self) -> Sources:
+        """The actuator for the kernels, in units of the wire's length and tesla."""
+        table = UNIFORM if self.actuator is None else self.actuator.arrays()
+        return table._replace(length=self.wire.length)
+
+    @property
+    def uniform(self) -> bool:
+        """Whether the actuator's field has no gradient."""
+        table = self.sources
+        kinds = (table.dipoles, table.multipoles, table.loops, table.cylinders)
+        return not any(kind.shape[1] for kind in kinds) and not (
+            len(table.maps) or np.any(table.affine[:, 3:])
+        )
+
+    @cached_property
+    def idle_strength(self) -> Array:
+        """State of the actuator with inputs of zero."""
+        strength = new_strength(self.sources)
+        drive(self.sources, np.zeros(len(self.sources.curve)), strength)
+        return strength
 
     @cached_property
     def path_arrays(self) -> LumenArrays:
@@ -314,7 +350,7 @@ class System:
             velocity=np.zeros((nodes, 4)),
             guide=np.zeros(2),
             held=np.array([nodes - 1]),
-            inputs=np.zeros(3),
+            inputs=np.zeros(len(self.sources.curve)),
             contact=np.zeros((nodes, CONTACT)),
             spent=np.zeros(1),
         )
@@ -333,6 +369,7 @@ class System:
             spare=self.new_state(),
             ahead=self.new_state(),
             before=self.new_state(),
+            inputs=np.zeros(len(self.sources.curve)),
             target=np.zeros((nodes, 4)),
         )
 
