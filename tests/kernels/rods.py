@@ -13,7 +13,6 @@ from magwire.kernels.arrays import Field, Motion, Mouth, Rod, State
 from magwire.kernels.assembly import assemble
 from magwire.kernels.frames import update_frames
 from magwire.kernels.hinge import reference_twist
-from magwire.kernels.sources.table import new_strength, no_sources
 from magwire.lumen import Lumen
 from magwire.wire import Wire
 
@@ -63,8 +62,8 @@ def random_field(rng: np.random.Generator, edges: int, *, uniform: bool) -> Fiel
         gradient=rng.normal(size=(edges, 9)),
         origin=rng.normal(size=(edges, 3)),
         uniform=np.array([uniform]),
-        sources=no_sources(0),
-        strength=new_strength(no_sources(0)),
+        sources=(),
+        strength=rng.normal(size=3),
     )
 
 

@@ -24,7 +24,7 @@ def sample(system: System, source: FieldSource, state: State) -> Field:
         flux_density=np.array(flux, dtype=np.float64),
         gradient=slope,
         origin=middle,
-        uniform=np.array([system.uniform and source.affine and not np.any(slope)]),
+        uniform=np.array([not system.sources and source.affine and not np.any(slope)]),
         sources=system.sources,
         strength=system.idle_strength.copy(),
     )

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.contact import Barrier, Friction
-from magwire.engine.record import Scales, patch_length
+from magwire.engine.record import UNIFORM_INPUTS, Scales, patch_length
 from magwire.engine.wall import Firmness, divide, fit
 from magwire.errors import InputError, array, nonnegative, one_of
 from magwire.field import FieldSource, UniformField
@@ -20,8 +20,8 @@ from magwire.kernels.arrays import Guide, Rod, State, Tube, Wall, Work
 from magwire.kernels.band import HALF_BANDWIDTH, WIDTH
 from magwire.kernels.centreline import LumenArrays
 from magwire.kernels.newton import Limits
-from magwire.kernels.sources.drive import drive
-from magwire.kernels.sources.table import Sources, new_strength, no_sources
+from magwire.kernels.sources.steer import steer
+from magwire.kernels.sources.table import Sources, new_strength
 from magwire.kernels.wall.traction import CONTACT
 from magwire.lumen import Lumen
 from magwire.wire import Mesh, Wire, lay_out
@@ -36,13 +36,17 @@ SHARP_TOLERANCE = 1e-9  # force residual of an equilibrium, in EI/L^2
 ITERATIONS = 60  # of a time step
 MANY_ITERATIONS = 2000  # of an equilibrium, which may be far from its start
 NO_FIELD = UniformField()
-UNIFORM = no_sources(3)._replace(affine=np.eye(4, 12) * [[1.0], [1.0], [1.0], [0.0]])
 ELASTIC_SLIP = 1e-4  # at the cone, over the lumen's smallest radius (P-30)
 FIRST_SHIFT = 10.0  # first regularisation, in EI/(rho A L^4)
 
 
 class Actuator(Protocol):
     """What makes a field from inputs (P-24)."""
+
+    @property
+    def input_names(self) -> tuple[tuple[str, str], ...]:
+        """Names and units of its inputs."""
+        ...
 
     def arrays(self) -> Sources:
         """Its sources for the kernels, in SI units."""
@@ -179,26 +183,28 @@ class System:
         return self.lumen.path()
 
     @cached_property
-    def sources(self) -> Sources:
+    def sources(self) -> tuple[()] | tuple[Sources]:
         """The actuator for the kernels, in units of the wire's length and tesla."""
-        table = UNIFORM if self.actuator is None else self.actuator.arrays()
-        return table._replace(length=self.wire.length)
-
-    @property
-    def uniform(self) -> bool:
-        """Whether the actuator's field has no gradient."""
-        table = self.sources
-        kinds = (table.dipoles, table.multipoles, table.loops, table.cylinders)
-        return not any(kind.shape[1] for kind in kinds) and not (
-            len(table.maps) or np.any(table.affine[:, 3:])
-        )
+        if self.actuator is None:
+            return ()
+        return (self.actuator.arrays()._replace(length=self.wire.length),)
 
     @cached_property
     def idle_strength(self) -> Array:
         """State of the actuator with inputs of zero."""
-        strength = new_strength(self.sources)
-        drive(self.sources, np.zeros(len(self.sources.curve)), strength)
+        strength = new_strength(self.sources[0]) if self.sources else np.zeros(3)
+        steer(self.sources, np.zeros(self.inputs), strength)
         return strength
+
+    @property
+    def input_names(self) -> tuple[tuple[str, str], ...]:
+        """Names and units of the actuator's inputs."""
+        return UNIFORM_INPUTS if self.actuator is None else self.actuator.input_names
+
+    @property
+    def inputs(self) -> int:
+        """Number of the actuator's inputs."""
+        return len(self.sources[0].curve) if self.sources else 3
 
     @cached_property
     def path_arrays(self) -> LumenArrays:
@@ -350,7 +356,7 @@ class System:
             velocity=np.zeros((nodes, 4)),
             guide=np.zeros(2),
             held=np.array([nodes - 1]),
-            inputs=np.zeros(len(self.sources.curve)),
+            inputs=np.zeros(self.inputs),
             contact=np.zeros((nodes, CONTACT)),
             spent=np.zeros(1),
         )
@@ -369,7 +375,7 @@ class System:
             spare=self.new_state(),
             ahead=self.new_state(),
             before=self.new_state(),
-            inputs=np.zeros(len(self.sources.curve)),
+            inputs=np.zeros(self.inputs),
             target=np.zeros((nodes, 4)),
         )
 

@@ -58,15 +58,16 @@ class Field(NamedTuple):
     """Background and actuator (P-7, P-24).
 
     Samples of the background at each edge: B_0 [N, 3], gradient [N, 9] by rows, where sampled
-    [N, 3]. sources, strength: the actuator and the state that its inputs put it in; see
-    ``sources.table``. uniform [1]: whether neither of the two has a gradient.
+    [N, 3]. sources, strength: the actuator, if it is more than three components of a uniform
+    field, and the state that its inputs put it in; see ``sources.table``. uniform [1]: whether
+    neither of the two has a gradient.
     """
 
     flux_density: Array
     gradient: Array
     origin: Array
     uniform: Flag
-    sources: Sources
+    sources: tuple[()] | tuple[Sources]
     strength: Array
 
 

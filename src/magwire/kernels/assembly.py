@@ -25,15 +25,15 @@ from magwire.kernels.blocks import (
 )
 from magwire.kernels.hinge import hinge, material_frame
 from magwire.kernels.magnetics import (
-    field_at,
     force_block,
     moment_vector,
     second_block,
     torque_gradient,
     torque_hessian,
+    with_background,
 )
 from magwire.kernels.scatter import add_block, add_column, add_diagonal, add_row, add_vector
-from magwire.kernels.sources.jet import uniform_part
+from magwire.kernels.sources.steer import field_of
 from magwire.kernels.stretching import stretching, stretching_hessian
 from magwire.kernels.twisting import twisting_gradient, twisting_hessian
 from magwire.kernels.vectors import add, combine, dot, row, scale, sub
@@ -160,10 +160,12 @@ def _add_magnet(field, state, j, m, gradient, band, r):
     inv = 1.0 / state.length[j]
     m1, m2 = material_frame(row(state.director, j), t, state.q[j, 3])
     if field.uniform[0]:
-        b = add(row(field.flux_density, j), uniform_part(field.sources, field.strength))
+        u = field.strength
+        b = add(row(field.flux_density, j), (u[0], u[1], u[2]))
     else:
         middle = combine(0.5, row(state.q, j), 0.5, row(state.q, j + 1))
-        b, g, second = field_at(field, j, middle, len(band) > 0)
+        made = field_of(field.sources, field.strength, middle, len(band) > 0)
+        b, g, second = with_background(field, j, middle, made)
         space = moment_vector(m, m1, m2, t)
         pull = (
             -0.5 * (space[0] * g[0] + space[1] * g[3] + space[2] * g[6]),

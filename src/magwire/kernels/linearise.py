@@ -12,7 +12,7 @@ from magwire.kernels.band import WIDTH, factor, solve
 from magwire.kernels.hinge import material_frame
 from magwire.kernels.magnetics import torque_gradient
 from magwire.kernels.newton import take_step
-from magwire.kernels.sources.drive import drive
+from magwire.kernels.sources.steer import steer
 from magwire.kernels.vectors import row
 from magwire.kernels.wall.push import press_tube
 
@@ -172,9 +172,9 @@ def linearise(model, state, mouth, work, linear):
             take_step(state, work.spare, held, sign * probe, work.step)
             for c in range(3):
                 work.inputs[c] = state.inputs[c] + (sign * probe if c == axis else 0.0)
-            drive(field.sources, work.inputs, field.strength)
+            steer(field.sources, work.inputs, field.strength)
             assemble(model, work.spare, mouth, still, work.gradient, work.band)
-            drive(field.sources, state.inputs, field.strength)
+            steer(field.sources, state.inputs, field.strength)
             slope += sign * quotient(work.band, linear.mode, last) / (2.0 * probe)
         linear.slope[axis] = slope
     return value

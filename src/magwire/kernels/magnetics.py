@@ -7,16 +7,15 @@ G_ij = dB_i/dx_j; an actuator's field is known everywhere with its derivatives.
 
 from __future__ import annotations
 
-from magwire.kernels._jit import kernel
+from magwire.kernels._jit import kernel, part
 from magwire.kernels.blocks import sym_add, sym_identity, sym_outer, sym_pair, sym_scale
-from magwire.kernels.sources.jet import jet
 from magwire.kernels.vectors import add, combine, dot, row, scale, sub
 
 
-@kernel
-def field_at(field, j, x, wanted):
-    """Flux density, gradient (9) and second derivatives (18), if wanted, for edge j at a point."""
-    b, g, second = jet(field.sources, field.strength, x, wanted)
+@part
+def with_background(field, j, x, made):
+    """Field at a point, as made by the actuator, together with the background at edge j."""
+    b, g, second = made
     away, own = sub(x, row(field.origin, j)), field.gradient[j]
     b = (
         b[0] + field.flux_density[j, 0] + own[0] * away[0] + own[1] * away[1] + own[2] * away[2],

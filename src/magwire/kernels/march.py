@@ -13,7 +13,7 @@ from magwire.kernels.guide import change_held, find_mouth, place_held
 from magwire.kernels.history import copy_configuration, copy_state
 from magwire.kernels.newton import CONVERGED, TOO_MANY_ITERATIONS, Limits, newton, take_step
 from magwire.kernels.scatter import add_vector
-from magwire.kernels.sources.drive import drive as drive_sources
+from magwire.kernels.sources.steer import steer
 from magwire.kernels.vectors import dot, row
 from magwire.kernels.wall.between import press_edge
 from magwire.kernels.wall.collision import allowed_part
@@ -202,7 +202,7 @@ def march(model, guide, state, work, limits, drive, tally):
     arrives here would break the making of any other object.
     """
     field = model[1]
-    drive_sources(field.sources, state.inputs, field.strength)
+    steer(field.sources, state.inputs, field.strength)
     for k in range(drive.feed.shape[0]):
         entry = state.held[0]
         first = state.guide[0], state.guide[1]
@@ -220,7 +220,7 @@ def march(model, guide, state, work, limits, drive, tally):
                 for c in range(state.inputs.shape[0]):
                     rest = 1.0 - (done + share)
                     work.inputs[c] = rest * state.inputs[c] + (done + share) * drive.inputs[k, c]
-                drive_sources(field.sources, work.inputs, field.strength)
+                steer(field.sources, work.inputs, field.strength)
             outcome = time_step(
                 model, guide, state, work, limits, slides, blend(first, last, done), end, dt, drive
             )
@@ -233,7 +233,7 @@ def march(model, guide, state, work, limits, drive, tally):
                 if slides and halvings == begun + RETRIES:
                     copy_state(work.before, state)
                     state.held[0] = entry
-                    drive_sources(field.sources, state.inputs, field.strength)
+                    steer(field.sources, state.inputs, field.strength)
                     return k, status
                 if slides or halvings < begun + COARSE:
                     halvings += 1

@@ -60,14 +60,6 @@ def jet(sources, strength, x, wanted):
 
 
 @kernel
-def uniform_part(sources, strength):
-    """Field of sources that are uniform, in the unit of ``sources``."""
-    at = offsets(sources)[1]
-    unit = 1.0 / sources.flux
-    return _scale3(unit, (strength[at], strength[at + 1], strength[at + 2]))
-
-
-@kernel
 def covered(sources, x):
     """Whether the point ``x`` is inside of the map, if there is any."""
     length = sources.length
