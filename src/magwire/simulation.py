@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from magwire.actuate import Actuator
 from magwire.contact import Barrier, Friction
 from magwire.engine.feed import Feed
 from magwire.engine.hold import Hold
 from magwire.engine.plant import Plant
 from magwire.engine.record import Motion, RunInfo
 from magwire.engine.statics import Equilibrium, find_equilibrium
-from magwire.engine.system import Actuator, Release, System
+from magwire.engine.system import Release, System
 from magwire.errors import InputError, array, one_of, positive
 from magwire.field import FieldSource, UniformField
 from magwire.interrupt import held_back_interrupt

@@ -135,7 +135,7 @@ def find_equilibrium(
     part = feed / length
     plant = system.idle.pop() if system.idle else Plant(system, source)
     plant.use(source)
-    given = np.zeros(system.inputs) if inputs is None else inputs
+    given = system.idle_inputs if inputs is None else inputs
     state, mouth = plant.state, Mouth(*find_mouth(system.rod, system.guide, part))
     held = mouth.held
     if start is None:

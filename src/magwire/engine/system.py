@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Literal, Protocol
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.actuate import Actuator
 from magwire.contact import Barrier, Friction
 from magwire.engine.record import UNIFORM_INPUTS, Scales, patch_length
 from magwire.engine.wall import Firmness, divide, fit
@@ -38,19 +39,6 @@ MANY_ITERATIONS = 2000  # of an equilibrium, which may be far from its start
 NO_FIELD = UniformField()
 ELASTIC_SLIP = 1e-4  # at the cone, over the lumen's smallest radius (P-30)
 FIRST_SHIFT = 10.0  # first regularisation, in EI/(rho A L^4)
-
-
-class Actuator(Protocol):
-    """What makes a field from inputs (P-24)."""
-
-    @property
-    def input_names(self) -> tuple[tuple[str, str], ...]:
-        """Names and units of its inputs."""
-        ...
-
-    def arrays(self) -> Sources:
-        """Its sources for the kernels, in SI units."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -187,19 +175,26 @@ class System:
         """The actuator for the kernels, in units of the wire's length and tesla."""
         if self.actuator is None:
             return ()
-        return (self.actuator.arrays()._replace(length=self.wire.length),)
+        return (self.actuator.arrays(self.wire.length),)
 
     @cached_property
     def idle_strength(self) -> Array:
-        """State of the actuator with inputs of zero."""
+        """State of the actuator before anybody sets its inputs."""
         strength = new_strength(self.sources[0]) if self.sources else np.zeros(3)
-        steer(self.sources, np.zeros(self.inputs), strength)
+        steer(self.sources, self.idle_inputs, strength)
         return strength
+
+    @property
+    def idle_inputs(self) -> Array:
+        """Of the actuator before anybody sets them, shape (m,)."""
+        return np.zeros(3) if self.actuator is None else self.actuator.idle
 
     @property
     def input_names(self) -> tuple[tuple[str, str], ...]:
         """Names and units of the actuator's inputs."""
-        return UNIFORM_INPUTS if self.actuator is None else self.actuator.input_names
+        if self.actuator is None:
+            return UNIFORM_INPUTS
+        return tuple((one.name, one.unit) for one in self.actuator.inputs)
 
     @property
     def inputs(self) -> int:
@@ -356,7 +351,7 @@ class System:
             velocity=np.zeros((nodes, 4)),
             guide=np.zeros(2),
             held=np.array([nodes - 1]),
-            inputs=np.zeros(self.inputs),
+            inputs=self.idle_inputs,
             contact=np.zeros((nodes, CONTACT)),
             spent=np.zeros(1),
         )

@@ -20,8 +20,8 @@ def saturated(curve, a, b, u):
         t = tanh(b * u)
         return a * t, a * b * (1.0 - t * t)
     if curve == RATIONAL:
-        c = 1.0 / (1.0 + abs(b * u))
-        return a * b * u * c, a * b * c * c
+        c = 1.0 / (abs(u) + b)
+        return a * u * c, a * b * c * c
     return u, 1.0
 
 
