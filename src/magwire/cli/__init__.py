@@ -11,9 +11,10 @@ from cyclopts import App, CycloptsError
 import magwire
 from magwire.cli.benchmarks import bench
 from magwire.cli.evidence import reproduce, verify
+from magwire.cli.exports import export
 from magwire.cli.health import doctor
 from magwire.cli.outlets import plan_outlets
-from magwire.cli.pictures import animate, plot
+from magwire.cli.pictures import animate, plot, view
 from magwire.cli.running import replay, run
 from magwire.cli.scenarios import list_scenarios, schema
 from magwire.cli.sweeps import sweep
@@ -38,8 +39,10 @@ app = App(
     result_action="return_value",
     suppress_keyboard_interrupt=False,  # what is said then is said below
 )
-for command in (animate, bench, doctor, lumen, plot, replay, reproduce, run, schema, sweep, verify):
+for command in (animate, bench, doctor, export, lumen, plot, replay, reproduce, run, schema, sweep):
     app.command(command)
+app.command(verify)
+app.command(view)
 app.command(list_scenarios, name="list")
 app.command(plan_outlets, name="plan")
 
