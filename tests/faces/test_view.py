@@ -232,6 +232,17 @@ def test_without_webgl_it_is_drawn_flat(chromium: Any, helix: Path) -> None:
     assert not shown.faults
 
 
+def test_a_graphics_processor_that_goes_away(chromium: Any, tmp_path: Path) -> None:
+    shown = opened(chromium(), made().view(), tmp_path)
+    shown.ask("magwire.seek(40)")
+    lose = "document.querySelector('.view canvas').getContext('webgl2')"
+    shown.ask(f"{lose}.getExtension('WEBGL_lose_context').loseContext()")
+    shown.page.wait_for_timeout(200)
+    assert shown.ask("magwire.mode") == "canvas"
+    assert len(np.unique(shown.picture().reshape(-1, 3), axis=0)) > 50
+    assert not shown.faults
+
+
 def test_titles_are_texts(chromium: Any, tmp_path: Path) -> None:
     result = made(title=NASTY)
     shown = opened(chromium(), result.view(), tmp_path)

@@ -41,6 +41,8 @@
       head.append(unit);
       this.legend = document.createElement("div");
       this.legend.className = "legend";
+      const runs = new Set(this.series.map(({ run }) => run)).size;
+      if (runs > 1) this.legend.style.gridTemplateColumns = `repeat(${this.series.length / runs}, max-content)`;
       this.readings = this.series.map((series) => {
         const entry = document.createElement("span");
         const swatch = document.createElement("i");
@@ -132,7 +134,7 @@
       pen.lineWidth = 1;
       pen.textBaseline = "middle";
       pen.textAlign = "right";
-      const levels = this.log ? decades(...this.range).map((k) => 10 ** k) : ticks(...this.range, 3);
+      const levels = this.log ? decades(...this.range).map((k) => 10 ** k) : ticks(...this.range, 4);
       for (const value of levels) {
         const y = Math.round(this.y(value)) + 0.5;
         pen.strokeStyle = value === 0 ? muted : grid;

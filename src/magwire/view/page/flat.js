@@ -6,6 +6,15 @@
 
   const STROKE = 3; // rings of the lumen that are drawn with one stroke
 
+  // A line that is some pixels longer at both ends: what covers the seam to the stroke before.
+  function longer(line, by) {
+    const beyond = ([x, y], [fromX, fromY]) => {
+      const size = Math.hypot(x - fromX, y - fromY) || 1;
+      return [x + (by * (x - fromX)) / size, y + (by * (y - fromY)) / size];
+    };
+    return [beyond(line[0], line[1]), ...line.slice(1, -1), beyond(line.at(-1), line.at(-2))];
+  }
+
   class FlatPainter {
     constructor(canvas) {
       this.canvas = canvas;
@@ -53,7 +62,7 @@
           pen.lineWidth = Math.max(1, width);
           pen.lineJoin = "round";
           pen.beginPath();
-          line.forEach(([x, y], k) => (k ? pen.lineTo(x, y) : pen.moveTo(x, y)));
+          longer(line, colour === parts.colours.fill ? 1.5 : 0).forEach(([x, y], k) => (k ? pen.lineTo(x, y) : pen.moveTo(x, y)));
           pen.stroke();
         }
       }

@@ -159,8 +159,9 @@
       this.indices = [];
     }
 
-    // A tube along points; colours of four numbers, one for each point. Ends are closed.
-    tube(points, radii, colours, sides = ROUND) {
+    // A tube along points; colours of four numbers, one for each point. Ends are closed: round, or flat if
+    // steps is 0.
+    tube(points, radii, colours, sides = ROUND, steps = 4) {
       if (points.length < 2) return;
       const offset = this.positions.length / 3;
       const { positions, normals } = rings(points, radii, sides);
@@ -170,28 +171,27 @@
       for (const index of ribbons(points.length, sides, offset)) this.indices.push(index);
       const along = tangents(points);
       const last = points.length - 1;
-      this.cap(points[0], scale(along[0], -1), radii[0], colours[0], sides);
-      this.cap(points[last], along[last], radii[last], colours[last], sides);
+      this.cap(points[0], scale(along[0], -1), radii[0], colours[0], sides, steps);
+      this.cap(points[last], along[last], radii[last], colours[last], sides, steps);
     }
 
-    // Half a ball at an end of a tube.
-    cap(centre, along, radius, colour, sides) {
-      const steps = 4;
+    // The end of a tube: half a ball in some steps, or a disc.
+    cap(centre, along, radius, colour, sides, steps) {
       const beside = across(along);
       const over = cross(along, beside);
       const offset = this.positions.length / 3;
-      for (let step = 0; step <= steps; step++) {
-        const rise = (0.5 * Math.PI * step) / steps;
+      const rises = steps ? Array.from({ length: steps + 1 }, (_, step) => (0.5 * Math.PI * step) / steps) : [0, 1];
+      rises.forEach((rise, step) => {
         for (let side = 0; side < sides; side++) {
           const turn = (2 * Math.PI * side) / sides;
           const round = add(scale(beside, Math.cos(turn)), scale(over, Math.sin(turn)));
-          const normal = add(scale(round, Math.cos(rise)), scale(along, Math.sin(rise)));
-          this.positions.push(...add(centre, scale(normal, radius)));
+          const normal = steps ? add(scale(round, Math.cos(rise)), scale(along, Math.sin(rise))) : along;
+          this.positions.push(...add(centre, scale(steps ? normal : round, steps || !step ? radius : 0)));
           this.normals.push(...normal);
           this.colours.push(...colour);
         }
-      }
-      for (const index of ribbons(steps + 1, sides, offset)) this.indices.push(index);
+      });
+      for (const index of ribbons(rises.length, sides, offset)) this.indices.push(index);
     }
 
     // An arrow of some thickness from a point.
@@ -203,8 +203,8 @@
       const neck = add(from, scale(along, length - head));
       const tip = add(from, by);
       const thin = Math.min(radius, 0.2 * head);
-      this.tube([from, neck], [thin, thin], [colour, colour], 8);
-      this.tube([neck, tip], [0.45 * head, 1e-3 * thin], [colour, colour], 14);
+      this.tube([from, neck], [thin, thin], [colour, colour], 8, 0);
+      this.tube([neck, tip], [0.45 * head, 1e-3 * thin], [colour, colour], 14, 0);
     }
   }
 

@@ -138,6 +138,7 @@
       this.untouched = name;
       this.views.forEach(({ scene }) => (scene.follow = name === "tip"));
       this.views[0].scene.preset(name);
+      this.views.forEach(({ scene }) => scene.refresh());
       for (const button of this.root.querySelectorAll("[data-preset]")) button.classList.toggle("on", button.dataset.preset === name);
     }
 
@@ -205,7 +206,9 @@
   function answers(player) {
     return {
       runs: player.runs.length,
-      mode: player.views[0].scene.mode,
+      get mode() {
+        return player.views[0].scene.mode;
+      },
       seek: (time) => player.seek(time),
       times: (run = 0) => [...player.runs[run].arrays.time],
       record: (run = 0) => player.records[run],

@@ -5,6 +5,7 @@
   const { add, sub, scale, dot, norm, unit, at, principal } = parts.algebra;
   const SPREAD = 0.8; // radius of the disc that a node's force presses on, over that of the lumen
   const FIELD_ARROW = 0.2; // length of the arrow of the largest field, over the size of the picture
+  const CLOSE_ARROW = 4; // the same over the radius of the lumen, where the camera follows the tip
   const FORCE_ARROW = 2.4; // that of the largest force, over the radius of the lumen
   const GUIDE = 0.22; // length of the guide that is seen before the entrance, over the size
   const LEAST = 2e-3; // of the largest force: smaller ones have no arrow
@@ -102,14 +103,14 @@
     tubes(points) {
       const nodes = Array.from({ length: points.length / 3 }, (_, k) => at(points, k));
       const reach = GUIDE * this.size;
-      const fade = (node) => {
-        const behind = -dot(sub(node, this.entrance), this.inwards);
-        return behind < 0 || norm(sub(node, this.entrance)) < 0.5 * behind ? 1 : Math.max(0, 1 - Math.max(0, behind) / reach);
-      };
-      const begin = Math.max(0, nodes.findIndex((node) => fade(node) > 0));
+      const behind = (node) => -dot(sub(node, this.entrance), this.inwards);
+      const mouth = nodes.findIndex((node) => behind(node) <= 0); // from there on it is in the lumen
+      const fade = (k) => (mouth >= 0 && k >= mouth ? 1 : Math.max(0, 1 - Math.max(0, behind(nodes[k])) / reach));
+      const begin = Math.max(0, nodes.findIndex((_, k) => fade(k) > 0));
       const r = this.drawnRadius;
       const made = [];
-      for (let k = begin; k < nodes.length - 1; ) {
+      for (let begins = begin; begins < nodes.length - 1; ) {
+        const k = begins;
         const magnetic = this.wire.magnet[k] && this.wire.magnet[k + 1];
         let end = k + 1;
         while (end < nodes.length - 1 && Boolean(this.wire.magnet[end] && this.wire.magnet[end + 1]) === Boolean(magnetic)) end++;
@@ -118,9 +119,9 @@
         made.push({
           points: run,
           radii: run.map(() => (magnetic ? 1.12 * r : r)),
-          colours: run.map((node) => [...colour, fade(node)]),
+          colours: run.map((_, i) => [...colour, fade(k + i)]),
         });
-        k = end;
+        begins = end;
       }
       return made;
     }
@@ -142,8 +143,9 @@
       const share = norm(field) / this.scales.field;
       if (!(share > 0.01)) return [];
       const tip = at(points, points.length / 3 - 1);
-      const by = scale(field, (FIELD_ARROW * this.size) / this.scales.field);
-      return [{ from: tip, by, radius: 0.0055 * this.size, colour: [...parts.colours.field, 1] }];
+      const longest = this.follow ? CLOSE_ARROW * this.lumenRadius : FIELD_ARROW * this.size;
+      const by = scale(field, longest / this.scales.field);
+      return [{ from: tip, by, radius: 0.0275 * longest, colour: [...parts.colours.field, 1] }];
     }
 
     // "overview", "x", "y", "z" or "tip".
