@@ -1,7 +1,7 @@
 // A camera that goes round a target; several pictures may share one.
 "use strict";
 ((parts) => {
-  const { add, sub, scale, dot, cross, norm, unit, multiply, lookAt, perspective } = parts.algebra;
+  const { add, sub, scale, dot, cross, unit, multiply, lookAt, perspective } = parts.algebra;
   const ANGLE = (28 * Math.PI) / 180; // of view, upwards
   const STEEPEST = Math.PI / 2 - 1e-3;
 
@@ -130,5 +130,4 @@
   }
 
   parts.Camera = Camera;
-  parts.distanceBetween = (a, b) => norm(sub(a, b));
 })((window.magwireParts ??= {}));

@@ -136,9 +136,7 @@
 
     preset(name) {
       this.untouched = name;
-      this.views.forEach(({ scene }) => (scene.follow = name === "tip"));
-      this.views[0].scene.preset(name);
-      this.views.forEach(({ scene }) => scene.refresh());
+      parts.preset(this.views.map(({ scene }) => scene), name);
       for (const button of this.root.querySelectorAll("[data-preset]")) button.classList.toggle("on", button.dataset.preset === name);
     }
 

@@ -5,6 +5,7 @@
   const { add, sub, scale, dot, norm, unit, at, principal } = parts.algebra;
   const SPREAD = 0.8; // radius of the disc that a node's force presses on, over that of the lumen
   const FIELD_ARROW = 0.2; // length of the arrow of the largest field, over the size of the picture
+  const CLOSE = 18; // distance to the tip, over the radius of the lumen
   const CLOSE_ARROW = 4; // the same over the radius of the lumen, where the camera follows the tip
   const FORCE_ARROW = 2.4; // that of the largest force, over the radius of the lumen
   const GUIDE = 0.22; // length of the guide that is seen before the entrance, over the size
@@ -15,7 +16,8 @@
     constructor(holder, camera) {
       this.holder = holder;
       this.camera = camera;
-      this.follow = false;
+      this.follow = false; // whether the tip stays in the middle
+      this.shift = [0, 0, 0]; // from the camera's target to this scene's: scenes may share a camera
       this.start();
       camera.watchers.push(() => this.draw());
       new ResizeObserver(() => this.resize()).observe(holder);
@@ -89,10 +91,8 @@
         tubes: this.tubes(points),
         arrows: [...this.forceArrows(points, forces), ...this.fieldArrow(points, field)],
       });
-      if (this.follow) {
-        this.camera.target = at(points, points.length / 3 - 1);
-        this.camera.changed();
-      } else this.draw();
+      if (this.follow) this.shift = sub(at(points, points.length / 3 - 1), this.camera.target);
+      this.draw();
     }
 
     // A wire whose centreline the wall holds is drawn slim, or it would stick out.
@@ -148,22 +148,15 @@
       return [{ from: tip, by, radius: 0.0275 * longest, colour: [...parts.colours.field, 1] }];
     }
 
-    // "overview", "x", "y", "z" or "tip".
-    preset(name) {
-      this.follow = name === "tip";
+    // Where the camera has to be to see all of the lumen, from the direction that it looks in.
+    framing() {
       const aspect = (this.holder.clientWidth || 1) / (this.holder.clientHeight || 1);
-      if (name !== "tip") this.camera.look(name === "overview" ? this.bestView() : [0, 1, 2].map((k) => +("xyz"[k] === name)));
       const arrow = this.scales.field > 0 ? 0.04 * this.size : 0;
-      const { points, radii } = this.bounds;
-      const thin = points.filter((_, k) => k % Math.ceil(points.length / 400) === 0);
-      const some = radii.filter((_, k) => k % Math.ceil(points.length / 400) === 0);
+      const every = Math.ceil(this.bounds.points.length / 400);
+      const some = (list) => list.filter((_, k) => k % every === 0 || k === list.length - 1);
       const guide = sub(this.entrance, scale(this.inwards, 0.3 * GUIDE * this.size));
-      this.camera.fit([...thin, guide], [...some.map((r) => r + arrow), arrow], aspect);
-      if (name === "tip" && this.state) {
-        this.camera.target = at(this.state.points, this.state.points.length / 3 - 1);
-        this.camera.distance = Math.min(this.camera.distance, 28 * this.lumenRadius);
-      }
-      this.camera.changed();
+      this.camera.fit([...some(this.bounds.points), guide], [...some(this.bounds.radii).map((r) => r + arrow), arrow], aspect);
+      return { target: this.camera.target, distance: this.camera.distance };
     }
 
     // Onto the lumen's broad side, at a slant, so that depth can be seen.
@@ -189,10 +182,29 @@
 
     draw() {
       if (!this.mesh || !this.state) return;
-      this.painter.paint(this.camera, 2 * this.size);
+      const camera = Object.assign(new parts.Camera(), this.camera);
+      camera.target = add(camera.target, this.shift);
+      this.painter.paint(camera, 2 * this.size);
       this.afterwards?.();
     }
   }
 
+  // Show scenes that share a camera from "overview", "x", "y" or "z", or the "tip" close by.
+  function preset(scenes, name) {
+    const [{ camera, lumenRadius }] = scenes;
+    if (name !== "tip") camera.look(name === "overview" ? scenes[0].bestView() : [0, 1, 2].map((k) => +("xyz"[k] === name)));
+    const framings = scenes.map((scene) => scene.framing());
+    camera.target = framings[0].target;
+    camera.distance = Math.max(...framings.map(({ distance }) => distance));
+    if (name === "tip") camera.distance = Math.min(camera.distance, CLOSE * lumenRadius);
+    scenes.forEach((scene, k) => {
+      scene.follow = name === "tip";
+      scene.shift = sub(framings[k].target, camera.target);
+      scene.refresh();
+    });
+    camera.changed();
+  }
+
   parts.Scene = Scene;
+  parts.preset = preset;
 })((window.magwireParts ??= {}));
