@@ -70,7 +70,10 @@ def test_theory_pages_are_in_the_contents() -> None:
 PAGES_WITH_COMMANDS = (
     "README.md",
     "CONTRIBUTING.md",
-    *(f"docs/{name}.md" for name in ("tutorial", "index", "many", "benchmarks", "reproduce")),
+    *(
+        f"docs/{name}.md"
+        for name in ("tutorial", "index", "many", "benchmarks", "reproduce", "view")
+    ),
 )
 
 

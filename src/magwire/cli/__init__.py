@@ -12,9 +12,10 @@ import magwire
 from magwire.cli.benchmarks import bench
 from magwire.cli.devices import devices
 from magwire.cli.evidence import reproduce, verify
+from magwire.cli.exports import export
 from magwire.cli.health import doctor
 from magwire.cli.outlets import plan_outlets
-from magwire.cli.pictures import animate, plot
+from magwire.cli.pictures import animate, plot, view
 from magwire.cli.running import replay, run
 from magwire.cli.scenarios import list_scenarios, schema
 from magwire.cli.sweeps import sweep
@@ -44,6 +45,7 @@ for command in (
     bench,
     devices,
     doctor,
+    export,
     lumen,
     plot,
     replay,
@@ -52,6 +54,7 @@ for command in (
     schema,
     sweep,
     verify,
+    view,
 ):
     app.command(command)
 app.command(list_scenarios, name="list")
