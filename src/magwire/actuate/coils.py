@@ -16,8 +16,8 @@ from magwire.errors import InputError, array, finite, nonnegative, positive
 MU_0 = 1.25663706127e-6
 """Magnetic constant [T m/A], CODATA 2022."""
 GAUSS_POINTS = 4
-"""Loops across each side of a winding: the field is off by less than 1e-9 at a distance of three
-times the winding's size, and by less than 1e-5 at once the size."""
+"""Loops across each side of a winding. The field of a square one is off by 2e-4 at half its side
+from it, 4e-6 at its side, 6e-8 at twice that (against 16 loops across)."""
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import linprog
+from scipy.optimize import brentq, linprog
 from scipy.special import erfinv
 
 from magwire.actuate.actuator import Actuator
@@ -20,7 +20,7 @@ from magwire.kernels.sources.table import ATAN, ERF, RATIONAL, TANH
 Array = NDArray[np.float64]
 DIRECTIONS = 200
 CUTS = 60
-ENOUGH = 1e-6
+ENOUGH = 1e-3
 """The power may be over its limit by this share: the field is then over by half of it at most."""
 GOLDEN = math.pi * (3.0 - math.sqrt(5.0))
 UNBOUNDED = 3
@@ -199,15 +199,29 @@ class _Programme(NamedTuple):
             if found.status != 0:
                 return 0.0, np.full(count, math.nan)
             s = found.x[:count]
-            u = np.array([c.input(v) for c, v in zip(self.curves, s, strict=True)])
-            spent = float(self.resistance @ (u * u))
-            if spent <= self.max_power * (1.0 + ENOUGH):
+            u = self._inputs(s)
+            if self._power(s) <= self.max_power * (1.0 + ENOUGH):
                 break
-            slopes = np.array([c.slope(v) for c, v in zip(self.curves, u, strict=True)])
-            tangent = 2.0 * self.resistance * u / slopes
+            tangent, level = self._cut(s)
             cuts = np.vstack([cuts, np.append(tangent, 0.0)])
-            levels = np.append(levels, self.max_power - spent + float(tangent @ s))
+            levels = np.append(levels, level)
         return float(found.x[-1]), u
+
+    def _cut(self, s: Array) -> tuple[Array, float]:
+        """The tangent of the allowed power on the way from zero to ``s``: tangent s <= level."""
+        share = float(brentq(lambda a: self._power(a * s) - self.max_power, 0.0, 1.0, xtol=1e-9))
+        edge = share * s
+        u = self._inputs(edge)
+        slopes = np.array([c.slope(v) for c, v in zip(self.curves, u, strict=True)])
+        tangent = 2.0 * self.resistance * u / slopes
+        return tangent, float(tangent @ edge)
+
+    def _inputs(self, s: Array) -> Array:
+        return np.array([c.input(v) for c, v in zip(self.curves, s, strict=True)])
+
+    def _power(self, s: Array) -> float:
+        u = self._inputs(s)
+        return float(self.resistance @ (u * u))
 
 
 def _range(i: Input, max_power: float) -> tuple[float, float]:

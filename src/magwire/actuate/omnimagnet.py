@@ -1,4 +1,4 @@
-"""Three coils at one point (A. Petruska and J. Abbott, IEEE Trans. Robotics 30, 2014)."""
+"""Three coils at one point (A. Petruska and J. Abbott, IEEE Transactions on Magnetics 50, 2014)."""
 
 from __future__ import annotations
 

@@ -10,6 +10,8 @@ from math import nan
 
 from magwire.kernels._jit import kernel
 
+ROUNDING = 1e-9
+"""Of a point on the edge, over the step of the grid; it is turned into the map's frame."""
 NAN3, NAN9, NAN18 = (nan,) * 3, (nan,) * 9, (nan,) * 18
 
 
@@ -18,7 +20,7 @@ def inside(grid, shape, r):
     """Whether ``r``, in the map's frame, is on the grid; ``shape`` is that of the coefficients."""
     for i in range(3):
         s = (r[i] - grid[i]) / grid[3 + i]
-        if not 0.0 <= s <= shape[2 + i] - 3.0:
+        if not -ROUNDING <= s <= shape[2 + i] - 3.0 + ROUNDING:
             return False
     return True
 

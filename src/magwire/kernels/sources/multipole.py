@@ -1,4 +1,4 @@
-"""Sources of MPEM files of any order (Petruska and others, IEEE Trans. Robotics 33, 2017).
+"""Sources of MPEM files of any order (Petruska and others, IEEE Trans. Magnetics 53, 2017).
 
 psi = sum b_n r^(-n-1) P_n(c) + sum a_n r^n P_n(c), c the cosine of the angle to the direction, and
 B = -grad psi.
