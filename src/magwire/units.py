@@ -10,13 +10,16 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
+from functools import cache
 
 from magwire.errors import InputError, shortened
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
+_PLAIN = re.compile(r"[+-]?[0-9]+\.?[0-9]*(?:[eE][+-]?[0-9]{1,3})?")
 _NOT_A_NUMBER = re.compile(r"\s*([+-]?(?:nan|inf|infinity))\b\s*(.*?)\s*", re.IGNORECASE)
 # Other spellings of the same thing: both micro signs, middle dot, superscripts, "1 / m".
 _SPELLINGS = str.maketrans(
@@ -187,6 +190,12 @@ def parse(value: object, dimension: str, name: str = "") -> float:
         If the text is no number with a unit of this dimension.
     """
     kind = DIMENSIONS[dimension]
+    if isinstance(value, str):  # as most are; what follows is for other spellings, and for faults
+        digits, _, unit = value.partition(" ")
+        if unit in kind.units and _PLAIN.fullmatch(digits):
+            number = float(Decimal(digits) * _exact(kind.units[unit]))
+            if math.isfinite(number):
+                return number
     what = f"Input {name or 'value'}"
     plain = isinstance(value, (int, float)) and not isinstance(value, bool)
     text = shortened(value)
@@ -216,6 +225,50 @@ def parse(value: object, dimension: str, name: str = "") -> float:
     return number
 
 
+def parse_column(texts: Sequence[str], unit: str, dimension: str) -> list[float]:
+    """Numbers that share a unit, in SI: what ``parse`` makes of each with the unit, but faster.
+
+    Parameters
+    ----------
+    texts
+        Numbers without their unit.
+    unit
+        Of all of them.
+    dimension
+        A key of ``DIMENSIONS``.
+
+    Raises
+    ------
+    InputError
+        If one is no number.
+    """
+    factor = _exact(DIMENSIONS[dimension].units[unit])
+    if factor.as_tuple().digits == (1,) and "_" not in "".join(texts):
+        tail = f"e{factor.adjusted()}"  # moving the point is exact, as decimal arithmetic is
+        try:
+            values = [float(text + tail) for text in texts]
+        except ValueError:  # one has an exponent of its own, or is no number
+            values = _moved(texts, factor.adjusted())
+        if math.isfinite(sum(values)):
+            return values
+    return [parse(f"{text} {unit}", dimension) for text in texts]
+
+
+def _moved(texts: Sequence[str], places: int) -> list[float]:
+    """Numbers, with an exponent or without one, times a power of ten; one NaN if one is none."""
+    tail, values = f"e{places}", []
+    try:
+        for text in texts:
+            if "e" in text or "E" in text:
+                digits, _, power = text.strip().lower().partition("e")
+                values.append(float(f"{digits}e{int(power) + places}"))
+            else:
+                values.append(float(text.strip() + tail))
+    except ValueError:
+        return [math.nan]
+    return values
+
+
 def show(value: float, dimension: str) -> str:
     """A quantity in SI as people write it, in the unit that is customary for it.
 
@@ -230,19 +283,21 @@ def write(value: float, dimension: str) -> str:
     """A quantity in SI as text that ``parse`` reads back to exactly the same number."""
     kind = DIMENSIONS[dimension]
     unit = _customary(value, kind)
+    factor = kind.units[unit]
     for digits in (6, 12, 15, 16, 17):
-        text = f"{value / float(kind.units[unit]):.{digits}g} {unit}".rstrip()
-        if parse(text, dimension) == value:
-            return text
+        text = f"{value / float(factor):.{digits}g}"
+        if float(Decimal(text) * _exact(factor)) == value:
+            return f"{text} {unit}".rstrip()
     base = next(name for name, factor in kind.units.items() if factor == 1.0)
     return f"{value!r} {base}".rstrip()
 
 
+@cache
 def _exact(factor: float | Fraction) -> Decimal:
     """A factor as decimal number, to the digits that it is written with."""
     if isinstance(factor, Fraction):
         return Decimal(factor.numerator) / Decimal(factor.denominator)
-    return Decimal(repr(factor))
+    return Decimal(repr(factor)).normalize()
 
 
 def _customary(value: float, kind: Dimension) -> str:

@@ -67,7 +67,7 @@ def draw(vessel: Vessel, path: Path, wire: str | None) -> None:
 def _toml(vessel: Vessel, target: str) -> str:
     import tomli_w
 
-    from magwire.scenario.vessels import rows_of
+    from magwire.scenario.kinds.lumen.vessel import rows_of
 
     table = {"shape": "vessel", "target": target, "branches": rows_of(vessel)}
     return tomli_w.dumps({"lumen": table})

@@ -10,9 +10,10 @@ from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
 from magwire.errors import received
-from magwire.scenario.model import CHOICES, Scenario
+from magwire.scenario.kind import FAMILIES
+from magwire.scenario.kinds.wire.sections import SectionTable
+from magwire.scenario.model import Scenario
 from magwire.scenario.quantity import FAULT
-from magwire.scenario.tables import SectionTable
 
 Key = tuple[str | int, ...]
 
@@ -20,7 +21,7 @@ Key = tuple[str | int, ...]
 def key_of(error: ErrorDetails) -> Key:
     """Where the fault is, as keys of the file: the make of a table is no key of its own."""
     loc = error["loc"]
-    if len(loc) > 1 and loc[0] in CHOICES:
+    if len(loc) > 1 and loc[0] in FAMILIES:
         return (loc[0], *loc[2:])
     return loc
 
@@ -71,7 +72,7 @@ def suggestion(word: str, known: Sequence[str], note: str = "expected one of") -
 
 def _choice(name: str, given: dict[str, Any]) -> str:
     """A lumen without a known shape, or a field without a known kind."""
-    selector, makes = CHOICES[name]
+    selector, makes = FAMILIES[name].selector, FAMILIES[name].kinds
     words = ", ".join(f"'{make}'" for make in makes)
     if selector not in given:
         return f"Input {name}.{selector} is missing; expected one of {words}."
@@ -86,25 +87,28 @@ def _choice(name: str, given: dict[str, Any]) -> str:
 def _unknown(loc: Key, key: Key) -> str:
     model = _model_at(loc[:-1])
     word, table = str(key[-1]), spell(key[:-1])
-    clash = _clash(key)
+    clash = _clash(loc, key)
     if clash:
         return clash
     where = f"[{table}]" if table else "the scenario"
-    if len(key) == 2 and CHOICES.get(table, ("",))[0]:
-        where += f" with {CHOICES[table][0]} '{loc[1]}'"
+    if len(key) == 2 and table in FAMILIES and FAMILIES[table].selector:
+        where += f" with {FAMILIES[table].selector} '{loc[1]}'"
     known = list(model.model_fields) if model else []
     return f"Input {spell(key)} is not a key of {where}; {suggestion(word, known)}"
 
 
-def _clash(key: Key) -> str:
+def _clash(loc: Key, key: Key) -> str:
     """The message for a key that another key rules out, "" if it is simply unknown."""
-    name = spell(key)
-    if len(key) != 2:
+    family = FAMILIES.get(str(key[0])) if len(key) == 2 else None
+    if family is None or family.selector:
         return ""
-    for table, ruler in (("wire", "sections"), ("feed", "table")):
-        other = next(iter(CHOICES[table][1].values())).model_fields
-        if key[0] == table and key[1] in other:
-            return f"Input {name} cannot stand next to {table}.{ruler}; remove one of them."
+    ruled_by = family.kinds[str(loc[1])].ruled_by
+    others = (table.model_fields for table in family.kinds.values())
+    if ruled_by and any(key[1] in keys for keys in others):
+        return (
+            f"Input {spell(key)} cannot stand next to {family.name}.{ruled_by[0]}; remove one of "
+            "them."
+        )
     return ""
 
 
@@ -122,10 +126,10 @@ def _model_at(loc: Key) -> type[BaseModel] | None:
     """The model of the table at a place of pydantic's."""
     if not loc:
         return Scenario
-    if loc[0] in CHOICES:
+    if loc[0] in FAMILIES:
         if "sections" in loc[2:]:
             return SectionTable
-        return CHOICES[str(loc[0])][1].get(str(loc[1])) if len(loc) > 1 else None
+        return FAMILIES[str(loc[0])].kinds.get(str(loc[1])) if len(loc) > 1 else None
     field = Scenario.model_fields.get(str(loc[0]))
     annotation: Any = field.annotation if field else None
     is_table = isinstance(annotation, type) and issubclass(annotation, BaseModel)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from magwire.errors import InputError, ScenarioError
-from magwire.scenario.checks import refusals
+from magwire.scenario.kind import refusals
 from magwire.simulation import Simulation
 
 if TYPE_CHECKING:
@@ -51,8 +51,8 @@ class Job:
         ScenarioError
             If a model refuses what the scenario describes.
         """
-        parts = (scenario.wire, scenario.lumen, scenario.field, scenario.contact, scenario.feed)
-        faults = [text for part in parts for text in refusals(part.build)]
+        tables = ("wire", "lumen", "field", "contact", "feed")
+        faults = [text for name in tables for text in refusals(name, getattr(scenario, name).build)]
         if faults:
             raise ScenarioError(faults)
         try:
@@ -70,7 +70,7 @@ class Job:
             feed = scenario.feed.build()
         except InputError as error:
             raise ScenarioError(str(error)) from error
-        faults = list(refusals(lambda: scenario.navigate.build(simulation)))
+        faults = list(refusals("navigate", lambda: scenario.navigate.build(simulation)))
         if faults:
             raise ScenarioError(faults)
         return cls(

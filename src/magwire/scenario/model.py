@@ -5,43 +5,19 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import tomli_w
-from pydantic import BaseModel, Discriminator, Field, Tag
+from pydantic import Field
 
-from magwire.scenario.lumens import (
-    HalfCircleLumen,
-    HelixLumen,
-    PointsLumen,
-    SinusoidLumen,
-    StraightLumen,
-    TreeLumen,
+from magwire.scenario.kind import FAMILIES, AnyKind, on_new_kind
+from magwire.scenario.kinds import (
+    FeedTable,
+    FieldTable,
+    LumenTable,
+    NavigatorTable,
+    WireTable,
 )
-from magwire.scenario.navigators import (
-    NewtonSteering,
-    NoSteering,
-    PaperSteering,
-    ScheduledSteering,
-    StableSteering,
-)
-from magwire.scenario.synthetic import (
-    AorticArchLumen,
-    CarotidBifurcationLumen,
-    CoronaryTreeLumen,
-    TortuousLumen,
-)
-from magwire.scenario.tables import (
-    ConstantFeed,
-    ContactTable,
-    EnvironmentTable,
-    GradientFieldTable,
-    OutputTable,
-    SectionedWire,
-    SolverTable,
-    Table,
-    TabledFeed,
-    UniformFieldTable,
-    UniformWire,
-)
-from magwire.scenario.vessels import VesselLumen
+from magwire.scenario.kinds.navigate.none import NoSteering
+from magwire.scenario.table import Table
+from magwire.scenario.tables import ContactTable, EnvironmentTable, OutputTable, SolverTable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -50,82 +26,6 @@ if TYPE_CHECKING:
     from magwire.engine.record import Record
     from magwire.results import Result
     from magwire.scenario.job import Job
-
-
-def _which_wire(value: Any) -> str:
-    given = value if isinstance(value, dict) else vars(value) if _is_model(value) else {}
-    return "sections" if {"sections", "device"} & set(given) else "uniform"
-
-
-def _which_feed(value: Any) -> str:
-    given = value if isinstance(value, dict) else vars(value) if _is_model(value) else {}
-    return "table" if "table" in given or "twist_table" in given else "constant"
-
-
-def _is_model(value: object) -> bool:
-    return isinstance(value, BaseModel)
-
-
-Wire = Annotated[
-    Annotated[UniformWire, Tag("uniform")] | Annotated[SectionedWire, Tag("sections")],
-    Discriminator(_which_wire),
-]
-Lumen = Annotated[
-    StraightLumen
-    | HalfCircleLumen
-    | SinusoidLumen
-    | HelixLumen
-    | TreeLumen
-    | AorticArchLumen
-    | CarotidBifurcationLumen
-    | CoronaryTreeLumen
-    | TortuousLumen
-    | PointsLumen
-    | VesselLumen,
-    Field(discriminator="shape"),
-]
-FieldOfTheMagnet = Annotated[UniformFieldTable | GradientFieldTable, Field(discriminator="kind")]
-Feed = Annotated[
-    Annotated[ConstantFeed, Tag("constant")] | Annotated[TabledFeed, Tag("table")],
-    Discriminator(_which_feed),
-]
-Navigate = Annotated[
-    NoSteering | StableSteering | NewtonSteering | PaperSteering | ScheduledSteering,
-    Field(discriminator="method"),
-]
-
-CHOICES: dict[str, tuple[str, dict[str, type[Table]]]] = {
-    "wire": ("", {"uniform": UniformWire, "sections": SectionedWire}),
-    "lumen": (
-        "shape",
-        {
-            "straight": StraightLumen,
-            "half-circle": HalfCircleLumen,
-            "sinusoid": SinusoidLumen,
-            "helix": HelixLumen,
-            "tree": TreeLumen,
-            "aortic-arch": AorticArchLumen,
-            "carotid-bifurcation": CarotidBifurcationLumen,
-            "coronary-tree": CoronaryTreeLumen,
-            "tortuous": TortuousLumen,
-            "points": PointsLumen,
-            "vessel": VesselLumen,
-        },
-    ),
-    "field": ("kind", {"uniform": UniformFieldTable, "gradient": GradientFieldTable}),
-    "feed": ("", {"constant": ConstantFeed, "table": TabledFeed}),
-    "navigate": (
-        "method",
-        {
-            "none": NoSteering,
-            "stable": StableSteering,
-            "newton": NewtonSteering,
-            "paper": PaperSteering,
-            "schedule": ScheduledSteering,
-        },
-    ),
-}
-"""Tables that come in several makes: the key that tells which ("" if the others tell)."""
 
 
 class Scenario(Table):
@@ -140,12 +40,12 @@ class Scenario(Table):
 
     title: str = ""
     description: str = ""
-    wire: Wire
-    lumen: Lumen
-    field: FieldOfTheMagnet = Field(default={"kind": "uniform"})  # type: ignore[assignment]
+    wire: Annotated[WireTable, AnyKind("wire")]
+    lumen: Annotated[LumenTable, AnyKind("lumen")]
+    field: Annotated[FieldTable, AnyKind("field")] = Field(default={"kind": "uniform"})  # type: ignore[assignment]
     contact: ContactTable = Field(default={})  # type: ignore[assignment]
-    feed: Feed
-    navigate: Navigate = Field(default={"method": "none"})  # type: ignore[assignment]
+    feed: Annotated[FeedTable, AnyKind("feed")]
+    navigate: Annotated[NavigatorTable, AnyKind("navigate")] = Field(default={"method": "none"})  # type: ignore[assignment]
     solver: SolverTable = Field(default={})  # type: ignore[assignment]
     environment: EnvironmentTable = Field(default={})  # type: ignore[assignment]
     output: OutputTable = Field(default={})  # type: ignore[assignment]
@@ -153,7 +53,8 @@ class Scenario(Table):
     def to_toml(self) -> str:
         """The scenario as TOML: complete, with every default written out, and re-runnable."""
         tables = _lists(self.model_dump(exclude_none=True))
-        for name, (selector, _) in CHOICES.items():
+        for name, family in FAMILIES.items():
+            selector = family.selector
             if selector:  # what a table is comes first in it
                 tables[name] = {selector: tables[name][selector], **tables[name]}
         return tomli_w.dumps(tables)
@@ -206,3 +107,6 @@ def _lists(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [_lists(entry) for entry in value]
     return value
+
+
+on_new_kind(lambda: Scenario.model_rebuild(force=True))

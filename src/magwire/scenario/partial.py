@@ -8,8 +8,9 @@ from pydantic import BaseModel, TypeAdapter
 from pydantic.fields import FieldInfo
 
 from magwire.scenario.faults import Key
-from magwire.scenario.model import CHOICES, Scenario
-from magwire.scenario.tables import SectionTable
+from magwire.scenario.kind import FAMILIES
+from magwire.scenario.kinds.wire.sections import SectionTable
+from magwire.scenario.model import Scenario
 
 Model = TypeVar("Model", bound=BaseModel)
 
@@ -27,27 +28,20 @@ def partial_scenario(raw: dict[str, Any], faulty: set[Key]) -> Scenario:
     Returns
     -------
     Scenario
-        Not validated as a whole; asking for an attribute that is faulty raises AttributeError.
+        Not validated as a whole; asking for a key that is faulty raises FaultyKeyError.
     """
     tables: dict[str, Any] = {}
     for name, field in Scenario.model_fields.items():
         if (name,) in faulty:
             continue
         given = raw.get(name, field.default)
-        if name in CHOICES:
-            tables[name] = _table(_make(name, given), given, (name,), faulty)
+        if name in FAMILIES:
+            kind = FAMILIES[name].of(given)
+            if kind is not None:
+                tables[name] = _table(kind, given, (name,), faulty)
         elif isinstance(field.annotation, type) and issubclass(field.annotation, BaseModel):
             tables[name] = _table(field.annotation, given, (name,), faulty)
     return _bare(Scenario, tables)
-
-
-def _make(name: str, given: dict[str, Any]) -> type[BaseModel]:
-    selector, makes = CHOICES[name]
-    if selector:
-        return makes[given.get(selector, next(iter(makes)))]
-    rulers = {"wire": ("sections", "device"), "feed": ("table", "twist_table")}[name]
-    first, second = makes.values()
-    return second if any(ruler in given for ruler in rulers) else first
 
 
 def _table(model: type[BaseModel], raw: dict[str, Any], at: Key, faulty: set[Key]) -> BaseModel:

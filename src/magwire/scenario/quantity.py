@@ -7,18 +7,23 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, Any
 
+import numpy as np
+from numpy.typing import NDArray
 from pydantic import BeforeValidator, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from magwire import units
 from magwire.errors import InputError, received, shortened
+from magwire.scenario.measured import Measured, Numbers
 
+SLACK = 1e-9
+"""Relative room for rounding in comparisons of lengths."""
 FAULT = "magwire"
 """Error type whose message continues a sentence that starts with ``Input <key>``."""
 
-_SIGNS: dict[str, tuple[str, Callable[[float], bool]]] = {
-    "any": ("", lambda _: True),
+_SIGNS: dict[str, tuple[str, Callable[[Any], Any]]] = {
+    "any": ("", lambda x: x == x),
     "positive": ("positive", lambda x: x > 0.0),
     "nonnegative": ("zero or positive", lambda x: x >= 0.0),
 }
@@ -29,7 +34,7 @@ def fault(text: str) -> PydanticCustomError:
     return PydanticCustomError(FAULT, "{text}", {"text": text})
 
 
-class Kind:
+class Notation:
     """What a value is in the file: how it is read and written, and its JSON schema."""
 
     def read(self, value: Any) -> Any:
@@ -59,7 +64,7 @@ class Kind:
 
 
 @dataclass(frozen=True)
-class Quantity(Kind):
+class Quantity(Notation):
     """One number with a unit.
 
     Attributes
@@ -90,6 +95,10 @@ class Quantity(Kind):
             raise fault(f"must be {expected}; received {shortened(value)}")
         return number
 
+    def fits(self, numbers: NDArray[np.float64]) -> bool:
+        """Whether all of these numbers in SI are finite and of the right sign."""
+        return bool(np.isfinite(numbers).all() and _SIGNS[self.sign][1](numbers).all())
+
     def write(self, value: float) -> str:
         """Text that reads back to the same number."""
         return units.write(value, self.dimension)
@@ -102,7 +111,7 @@ class Quantity(Kind):
 
 
 @dataclass(frozen=True)
-class Row(Kind):
+class Row(Notation):
     """A list of a fixed number of quantities: a vector, or a row of a table.
 
     Attributes
@@ -152,7 +161,7 @@ class Row(Kind):
 
 
 @dataclass(frozen=True)
-class Rows(Kind):
+class Rows(Notation):
     """A list of rows, at least ``least`` and at most ``most`` of them."""
 
     row: Row
@@ -164,8 +173,14 @@ class Rows(Kind):
         """What a well-formed value is, for messages."""
         return f"a list of rows, each {self.row.expected}"
 
-    def read(self, value: object) -> tuple[tuple[float, ...], ...]:
+    def read(self, value: object) -> Numbers:
         """The rows in SI; raises the fault of the first row that has one."""
+        if isinstance(value, Measured):
+            enough = self.least <= len(value.values) <= (self.most or len(value.values))
+            columns = zip(self.row.columns, value.values.T, strict=True)
+            if enough and all(column.fits(numbers) for column, numbers in columns):
+                return Numbers(value.values)
+            value = value.written()
         if not isinstance(value, list):
             raise fault(f"must be {self.expected}; received {received(value)}")
         if len(value) < self.least:
@@ -178,9 +193,9 @@ class Rows(Kind):
                 rows.append(self.row.read(entry))
             except PydanticCustomError as error:
                 raise fault(f"(row {number}) {error.message()}") from None
-        return tuple(rows)
+        return Numbers(rows)
 
-    def write(self, value: tuple[tuple[float, ...], ...]) -> list[list[str]]:
+    def write(self, value: Numbers) -> list[list[str]]:
         """Rows of texts that read back to the same numbers."""
         return [self.row.write(row) for row in value]
 
@@ -190,7 +205,7 @@ class Rows(Kind):
 
 
 @dataclass(frozen=True)
-class OneOrEach(Kind):
+class OneOrEach(Notation):
     """One quantity for all, or a list with one for each."""
 
     item: Quantity
@@ -202,6 +217,10 @@ class OneOrEach(Kind):
 
     def read(self, value: object) -> tuple[float, ...]:
         """The values in SI, a single one for "all the same"."""
+        if isinstance(value, Measured):
+            if len(value.values) and self.item.fits(value.values):
+                return tuple(value.values.tolist())
+            value = value.written()
         if not isinstance(value, list):
             return (self.item.read(value),)
         if not value:
@@ -220,7 +239,7 @@ class OneOrEach(Kind):
 
 
 @dataclass(frozen=True)
-class Whole(Kind):
+class Whole(Notation):
     """A whole number without a unit, from ``minimum`` to ``maximum``."""
 
     minimum: int
@@ -249,7 +268,7 @@ class Whole(Kind):
 
 
 @dataclass(frozen=True)
-class Share(Kind):
+class Share(Notation):
     """A plain number, from ``low`` to ``high``."""
 
     low: float
@@ -288,6 +307,7 @@ def _vector(dimension: str) -> Row:
     return Row((Quantity(dimension),) * 3)
 
 
+Nodes = Annotated[int, Whole(4, 100_000)]
 Length = Annotated[float, Quantity("length", "positive")]
 Diameter = Annotated[float, Quantity("diameter", "positive")]
 DiameterOrZero = Annotated[float, Quantity("diameter", "nonnegative")]

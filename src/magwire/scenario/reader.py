@@ -13,16 +13,11 @@ from pydantic import ValidationError
 from magwire.errors import ScenarioError
 from magwire.files import TextFaultError, parse_toml, read_text
 from magwire.scenario.checks import cross_faults
-from magwire.scenario.devices import inline as inline_device
 from magwire.scenario.faults import Key, key_of, sentence, suggestion
+from magwire.scenario.kind import FAMILIES
 from magwire.scenario.model import Scenario
 from magwire.scenario.overrides import apply
 from magwire.scenario.partial import partial_scenario
-from magwire.scenario.points import inline
-from magwire.scenario.schedules import inline as inline_schedule
-from magwire.scenario.schedules import needs_file
-from magwire.scenario.vessels import inline as inline_vessel
-from magwire.scenario.vessels import needing_a_file, way_length
 
 
 def names() -> tuple[str, ...]:
@@ -80,40 +75,24 @@ def parse(
     faults = apply(raw, overrides)
     unread: set[Key] = set()
     notes: tuple[str, ...] = ()
-    lumen = raw.get("lumen")
-    if isinstance(lumen, dict) and lumen.get("shape") == "points" and "file" in lumen:
-        raw["lumen"], more = inline(lumen, folder or Path())
-        faults += more
-        if more:
-            unread |= {("lumen", "points"), ("lumen", "radius")}
-    elif isinstance(lumen, dict) and lumen.get("shape", "vessel") == "vessel" and "file" in lumen:
-        raw["lumen"], more, notes = inline_vessel({**lumen, "shape": "vessel"}, folder or Path())
-        faults += more
-        if more:
-            unread |= {("lumen", "branches"), ("lumen", "target"), ("feed", "distance")}
-        _feed_to_target(raw)
-    elif isinstance(lumen, dict) and lumen.get("shape") == "vessel":
-        faults += needing_a_file(lumen)
-    wire = raw.get("wire")
-    if isinstance(wire, dict) and "device" in wire and "sections" not in wire:
-        raw["wire"], more = inline_device(wire)
-        faults += more
-        unread |= {("wire",)} if more else set()
-    navigate = raw.get("navigate")
-    if isinstance(navigate, dict) and needs_file(navigate):
-        raw["navigate"], more = inline_schedule(navigate, folder or Path())
-        faults += more
-        unread |= {("navigate", "table")} if more else set()
+    for name, family in FAMILIES.items():
+        table = raw.get(name)
+        kind = family.of(table) if isinstance(table, dict) else None
+        if isinstance(table, dict) and kind is not None:
+            raw[name], more, missing, said, reach = kind.inline(table, folder or Path())
+            faults += more
+            notes += said
+            unread.update(missing, [(name,)] if raw[name] is None else [])
+            if reach is not None:
+                _feed_to(raw, reach)
     return _validate(raw, faults, unread).with_notes(notes)
 
 
-def _feed_to_target(raw: dict[str, Any]) -> None:
-    """Feed as far as the target, unless the scenario says how far."""
+def _feed_to(raw: dict[str, Any], reach: str) -> None:
+    """Feed as far as a file reaches, unless the scenario says how far."""
     feed = raw.get("feed")
     if isinstance(feed, dict) and not {"distance", "table", "twist_table"} & set(feed):
-        length = way_length(raw["lumen"])
-        if length is not None:
-            raw["feed"] = {**feed, "distance": length}
+        raw["feed"] = {**feed, "distance": reach}
 
 
 def json_schema() -> dict[str, Any]:
@@ -133,10 +112,7 @@ def _validate(raw: dict[str, Any], faults: list[str], unread: set[Key]) -> Scena
             if key not in unread:
                 faults.append(sentence(error))
                 faulty.add(key)
-    if scenario is not None:
-        faults += cross_faults(scenario, whole=True)
-    else:
-        faults += cross_faults(partial_scenario(raw, faulty), whole=False)
+    faults += cross_faults(scenario or partial_scenario(raw, faulty))
     if faults or scenario is None:
         raise ScenarioError(faults)
     return scenario

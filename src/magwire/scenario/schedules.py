@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import csv
-import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import tomli_w
 
-from magwire.errors import InputError, MagwireError, finite, positive
+from magwire.errors import InputError, finite, positive
 from magwire.files import parse_toml, read_text, write_whole
 from magwire.navigate import Schedule
 
@@ -20,7 +19,6 @@ if TYPE_CHECKING:
     from magwire.scenario.model import Scenario
 
 HEADER = ("feed [m]", "Bx [T]", "By [T]", "Bz [T]")
-_FILE = re.compile(r"^(?:Schedule file|Result file|File|Folder) ")
 
 
 def read_schedule(path: str | Path) -> Schedule:
@@ -147,45 +145,6 @@ def rows_of(schedule: Schedule) -> list[list[str]]:
     """The schedule as rows of a scenario's ``navigate.table``."""
     rows = np.column_stack([schedule.feed, schedule.flux_density]).tolist()
     return [[f"{row[0]!r} m", *(f"{b!r} T" for b in row[1:])] for row in rows]
-
-
-def needs_file(navigate: dict[str, Any]) -> bool:
-    """Whether a navigate table as read asks for a file, or should."""
-    scheduled = navigate.get("method") == "schedule"
-    return scheduled and ("file" in navigate or "table" not in navigate)
-
-
-def inline(navigate: dict[str, Any], folder: Path) -> tuple[dict[str, Any], list[str]]:
-    """The navigate table of a schedule with the numbers of its file in it.
-
-    Parameters
-    ----------
-    navigate
-        The table as read, without the key ``table`` or with the key ``file``.
-    folder
-        What a relative file name starts from.
-
-    Returns
-    -------
-    tuple
-        The table with ``table`` in place of ``file``, and the faults found; with a fault, it has
-        neither.
-    """
-    rest = {key: value for key, value in navigate.items() if key not in ("file", "table")}
-    if "file" not in navigate:
-        fault = "Input navigate.file is missing; expected a schedule as CSV file or a result file."
-    elif "table" in navigate:
-        fault = "Input navigate.table cannot stand next to navigate.file; remove one of them."
-    elif not isinstance(navigate["file"], str):
-        fault = f"Input navigate.file must be the name of a file; received {navigate['file']!r}."
-    else:
-        try:
-            rest["table"] = rows_of(read_schedule(folder / navigate["file"]))
-        except MagwireError as error:
-            fault = _FILE.sub("Input navigate.file ", str(error), count=1)
-        else:
-            return rest, []
-    return rest, [fault]
 
 
 def _schedule(text: str, path: Path) -> Schedule:

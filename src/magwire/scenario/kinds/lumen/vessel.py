@@ -1,18 +1,19 @@
-"""Lumens from a vessel's file: read, and put into the scenario as numbers."""
+"""A tree of tubes through balls, or that of a vessel's file."""
 
 from __future__ import annotations
 
-from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
 from magwire.errors import MagwireError
-from magwire.scenario.lumens import LumenTable
-from magwire.scenario.points import unit_faults
+from magwire.scenario.kind import Faults, Inlined, kind
+from magwire.scenario.kinds.lumen import LumenTable, unknown_target
+from magwire.scenario.kinds.lumen.points import unit_faults
+from magwire.scenario.measured import Measured, Numbers
 from magwire.scenario.quantity import Quantity, Row, Rows, at_least_one
 from magwire.units import parse, write
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from magwire.vessel import Vessel
 
 BALL = Row((Quantity("length"),) * 3 + (Quantity("length", "positive"),))
-Balls = Annotated[tuple[tuple[float, float, float, float], ...], Rows(BALL, least=2)]
+Balls = Annotated[Numbers, Rows(BALL, least=2)]
 VECTORS = {"rotation": "angle", "translation": "length"}
 NUMBERS = ("scale", "smoothing", "extend")
 SPOTS = ("entrance", "target")
@@ -33,6 +34,7 @@ def _note(text: str) -> Any:
     return Field(default=None, description=text)
 
 
+@kind
 class VesselLumen(LumenTable):
     """A tree of tubes from the entrance to each outlet, by the names of the outlets.
 
@@ -40,6 +42,7 @@ class VesselLumen(LumenTable):
     writes, ``file`` and what goes with it stand for ``branches``.
     """
 
+    ruled_by = ("file",)
     shape: Literal["vessel"]
     target: str
     branches: Annotated[dict[str, Balls], at_least_one("branch")]
@@ -56,59 +59,56 @@ class VesselLumen(LumenTable):
     extend: float | None = _note("radii by which lines are made longer at their open ends")
     cut: list[tuple[str, str, str]] | None = _note("points at which loops are opened")
 
+    @classmethod
+    def inline(cls, table: dict[str, Any], folder: Path) -> Inlined:
+        """The table with the tubes of its file, and the name of its target, in it."""
+        if "file" not in table:
+            keys = [key for key in KEYS if key in table and key not in ("file", "target")]
+            return Inlined(
+                table,
+                [f"Input lumen.{key} needs lumen.file next to it; remove it." for key in keys],
+            )
+        rest = {key: value for key, value in table.items() if key not in (*KEYS, "branches")}
+        rest["shape"] = "vessel"
+        found = _read(table, rest, folder)
+        return found if found.faults else found._replace(reach=_reach(found.table or {}))
+
     @property
     def narrowest(self) -> float:
         """Smallest radius on the way to the target [m]."""
-        return min(row[3] for row in self.branches[self.target])
+        return float(self.branches[self.target].values[:, 3].min())
 
-    def shape_model(self) -> Lumen:
-        """The lumen as a model, without its entry."""
-        return self._model
+    def clashes(self) -> Faults:
+        """The target is one of the outlets."""
+        yield from unknown_target(self.target, self.branches)
 
-    @cached_property
-    def _model(self) -> Lumen:
+    def without_entry(self) -> Lumen:
+        """The lumen as a model, but for its entry."""
         from magwire.lumen import Lumen
 
-        tubes = {name: np.array(rows) for name, rows in self.branches.items()}
+        tubes = {name: rows.values for name, rows in self.branches.items()}
         return Lumen.ways(tubes, target=self.target)
 
 
-class Inlined(NamedTuple):
-    """A lumen's table with the tubes of its file in it, faults, and what was done to the file."""
-
-    table: dict[str, Any]
-    faults: list[str]
-    notes: tuple[str, ...] = ()
+def rows_of(vessel: Vessel) -> dict[str, list[list[str]]]:
+    """The tubes of a vessel as a scenario's file has them."""
+    return {name: _rows(balls) for name, balls in vessel.balls.items()}
 
 
-def inline(lumen: dict[str, Any], folder: Path) -> Inlined:
-    """The lumen table with the tubes of its file in it.
-
-    Parameters
-    ----------
-    lumen
-        The table as read, with the key ``file``.
-    folder
-        What a relative file name starts from.
-
-    Returns
-    -------
-    Inlined
-        The table with ``branches`` and the name of the ``target`` in place of ``file`` and what
-        goes with it, and the faults found; with a fault, the table lacks both.
-    """
-    rest = {key: value for key, value in lumen.items() if key not in (*KEYS, "branches")}
-    options, faults = _options(lumen)
-    if "branches" in lumen:
+def _read(table: dict[str, Any], rest: dict[str, Any], folder: Path) -> Inlined:
+    """The rest of a table with the tubes of its file."""
+    unread = (("lumen", "branches"), ("lumen", "target"), ("feed", "distance"))
+    options, faults = _options(table)
+    if "branches" in table:
         faults.append("Input lumen.branches cannot stand next to lumen.file; remove one of them.")
-    given = lumen["file"] if isinstance(lumen["file"], list) else [lumen["file"]]
+    given = table["file"] if isinstance(table["file"], list) else [table["file"]]
     if not given or not all(isinstance(name, str) for name in given):
         faults.append(
             "Input lumen.file must be the name of a file or a folder, or a list of files; received "
-            f"{lumen['file']!r}."
+            f"{table['file']!r}."
         )
     if faults:
-        return Inlined(rest, faults)
+        return Inlined(rest, faults, unread)
     from magwire.vessel import Vessel
 
     target = options.pop("target", None)
@@ -119,41 +119,29 @@ def inline(lumen: dict[str, Any], folder: Path) -> Inlined:
         notes = vessel.record()
     except MagwireError as error:
         text = str(error).replace(" of Lumen.read", "").replace("Input ", "Input lumen.", 1)
-        return Inlined(rest, [text])
-    return Inlined({**rest, "target": name, "branches": rows_of(vessel)}, [], notes)
+        return Inlined(rest, [text], unread)
+    tubes = {outlet: _measured(balls) for outlet, balls in vessel.balls.items()}
+    return Inlined({**rest, "target": name, "branches": tubes}, [], notes=notes)
 
 
-def needing_a_file(lumen: dict[str, Any]) -> list[str]:
-    """Faults of a vessel's table without a file: keys that say how to read one."""
-    keys = [key for key in KEYS if key in lumen and key not in ("file", "target")]
-    return [f"Input lumen.{key} needs lumen.file next to it; remove it." for key in keys]
-
-
-def rows_of(vessel: Vessel) -> dict[str, list[list[str]]]:
-    """The tubes of a vessel as a scenario has them."""
-    return {name: _rows(balls) for name, balls in vessel.balls.items()}
-
-
-def way_length(lumen: dict[str, Any]) -> str | None:
-    """Length from the entrance to the target of an inlined table, None if it is not known."""
-    rows = lumen.get("branches", {}).get(lumen.get("target"))
-    if rows is None:
-        return None
-    try:
-        entry = parse(lumen.get("entry", "0 mm"), "length")
-    except MagwireError:
-        return None
-    from magwire.lumen import Lumen
-
-    balls = np.array(BALL_ROWS.read(rows))
-    return write(Lumen.through(balls[:, :3], balls[:, 3]).length + entry, "length")
-
-
-BALL_ROWS = Rows(BALL, least=2)
+def _measured(balls: NDArray[np.float64]) -> Measured:
+    return Measured(balls, lambda: list(_rows(balls)))
 
 
 def _rows(balls: NDArray[np.float64]) -> list[list[str]]:
     return [[write(value, "length") for value in ball] for ball in balls.tolist()]
+
+
+def _reach(table: dict[str, Any]) -> str | None:
+    """Length from the entrance to the target, None if it is not known."""
+    try:
+        entry = parse(table.get("entry", "0 mm"), "length")
+    except MagwireError:
+        return None
+    from magwire.lumen import Lumen
+
+    balls = table["branches"][table["target"]].values
+    return write(Lumen.through(balls[:, :3], balls[:, 3]).length + entry, "length")
 
 
 def _options(lumen: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
