@@ -57,7 +57,8 @@ class Feed:
             If times do not start at 0 and rise, or the wire would be pulled out of the guide.
         """
         feed = cls.__new__(cls)
-        feed._set(times, speeds, np.zeros(len(times)) if twists is None else twists)
+        knots = array("Feed", "times", times, (None,), "s")
+        feed._set(knots, speeds, np.zeros(len(knots)) if twists is None else twists)
         return feed
 
     def _set(self, times: ArrayLike, speeds: ArrayLike, twists: ArrayLike) -> None:

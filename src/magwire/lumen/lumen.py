@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from magwire.errors import InputError, array, nonnegative, positive, whole
+from magwire.errors import InputError, array, instance, nonnegative, numbers, positive, whole
 from magwire.kernels.centreline import LumenArrays
 from magwire.lumen import shapes
 from magwire.lumen.branch import Bend, Branch
@@ -70,6 +70,7 @@ class Lumen:
                     f"{type(branch).__name__}."
                 )
         object.__setattr__(self, "branches", tuple(branches))
+        instance("Lumen", "paths", self.paths, Mapping)
         paths = self.paths if isinstance(self.paths, Lazy) else MappingProxyType(dict(self.paths))
         object.__setattr__(self, "paths", paths)
         if self.target is None and self.paths:
@@ -172,7 +173,8 @@ class Lumen:
         radius
             Inner radius [m], one number or one for each point, shape (q,).
         """
-        return cls((Branch(np.asarray(points), np.asarray(radius)),))
+        line = array("Lumen.through", "points", points, (None, 3), "m")
+        return cls((Branch(line, numbers("Lumen.through", "radius", radius)),))
 
     @classmethod
     def bends(cls, table: ArrayLike, radius: float, points: int = 200) -> Lumen:
@@ -306,6 +308,7 @@ class Lumen:
         owner = "Lumen.ways"
         if blend is not None:
             nonnegative(owner, "blend", blend, "m")
+        instance(owner, "balls", balls, Mapping)
         given = {name: array(owner, "balls", rows, (None, 4), "m") for name, rows in balls.items()}
         if not given:
             raise InputError(
@@ -465,6 +468,7 @@ class Lumen:
 
     def _known(self, name: str, outlet: str) -> str:
         """The name of an outlet, checked."""
+        instance("Lumen", name, outlet, str)
         outlet = meant(outlet, tuple(self.paths))
         if outlet in self.paths:
             return outlet

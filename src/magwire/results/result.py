@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.errors import ResultError, positive
+from magwire.errors import ResultError, offering, positive, refuse
 from magwire.files import successor
 from magwire.results import disk, forces, loading
 from magwire.results.older import completed
@@ -39,6 +39,9 @@ class Result:
     """
 
     def __init__(self, dataset: xr.Dataset) -> None:
+        offering(
+            "Result", "dataset", dataset, [("attrs", "sizes", "data_vars")], "an xarray Dataset"
+        )
         self.dataset = completed(dataset)
 
     @classmethod
@@ -55,6 +58,8 @@ class Result:
         ResultError
             If it is no result file.
         """
+        if not isinstance(path, (str, Path)):
+            raise refuse("Result.load", "path", "a file or folder", path)
         path = Path(path)
         if path.is_dir():
             if not (path / FILE).exists():

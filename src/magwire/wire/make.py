@@ -6,8 +6,6 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from numbers import Real
 
-import numpy as np
-
 from magwire.errors import InputError, array, finite, nonnegative, positive, within
 from magwire.wire.section import MU_0, Section, Stiffness, Vector3
 
@@ -198,6 +196,6 @@ def _vector(name: str, value: float | Sequence[float] | None, unit: str) -> Vect
     """Three components, of which a lone number is the one along the axis."""
     if value is None:
         return (0.0, 0.0, 0.0)
-    whole = (0.0, 0.0, value) if isinstance(value, Real) else value
-    x, y, z = array("Make", name, np.asarray(whole), (3,), unit).tolist()
+    whole = (0.0, 0.0, float(value)) if isinstance(value, Real) else value
+    x, y, z = array("Make", name, whole, (3,), unit).tolist()
     return (x, y, z)

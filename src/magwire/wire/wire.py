@@ -5,8 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from numbers import Real
 
-from magwire.errors import InputError, nonnegative, refuse, whole
+from magwire.errors import (
+    InputError,
+    array,
+    described,
+    instance,
+    nonnegative,
+    positive,
+    refuse,
+    whole,
+)
 from magwire.wire.make import Make
 from magwire.wire.section import Section
 
@@ -32,6 +42,11 @@ class Wire:
     nodes: int
 
     def __post_init__(self) -> None:
+        if isinstance(self.sections, (str, bytes)) or not isinstance(self.sections, Sequence):
+            raise InputError(
+                "Input sections of Wire must be a list of Section; received "
+                f"{described(self.sections)}."
+            )
         if not self.sections or not all(isinstance(s, Section) for s in self.sections):
             raise refuse("Wire", "sections", "at least one Section", self.sections)
         object.__setattr__(self, "sections", tuple(self.sections))
@@ -78,14 +93,14 @@ class Wire:
         rest_curvature
             Curvature of the unloaded wire towards m1 and m2, shape (2,) [1/m].
         """
+        positive("Wire", "length", length, "m")
         tip = nonnegative("Wire", "magnetized_tip", magnetized_tip, "m")
         if tip > length:
             raise refuse("Wire", "magnetized_tip", f"at most the length {length:.10g} m", tip, "m")
-        magnet: Sequence[float]
-        if isinstance(magnetization, (int, float)):
-            magnet = (0.0, 0.0, magnetization)
-        else:
-            magnet = magnetization
+        lone = isinstance(magnetization, Real)
+        magnet = (0.0, 0.0, magnetization) if lone else magnetization
+        moment = array("Wire", "magnetization", magnet, (3,), "A/m").tolist()
+        curved = array("Wire", "rest_curvature", rest_curvature, (2,), "1/m").tolist()
 
         def section(part: float, moments: Sequence[float]) -> Section:
             return Section(
@@ -96,14 +111,14 @@ class Wire:
                 density=density,
                 inner_radius=inner_radius,
                 magnetization=tuple(moments),  # type: ignore[arg-type]
-                rest_curvature=tuple(rest_curvature),  # type: ignore[arg-type]
+                rest_curvature=(curved[0], curved[1]),
             )
 
         parts = []
         if tip < length or tip == 0.0:
             parts.append(section(length - tip, (0.0, 0.0, 0.0)))
         if tip > 0.0:
-            parts.append(section(tip, magnet))
+            parts.append(section(tip, moment))
         return cls(sections=tuple(parts), nodes=nodes)
 
     @classmethod
@@ -126,6 +141,7 @@ class Wire:
         InputError
             If a value is out of its range.
         """
+        instance("Wire", "make", make, Make)
         tip = nonnegative("Wire", "magnetized_tip", magnetized_tip, "m")
         whole = make.section(length)
         if tip > length:
