@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from magwire.errors import InputError, array, finite, positive
+from magwire.units import show
 
 Array = NDArray[np.float64]
 
@@ -92,6 +93,19 @@ class Feed:
     def duration(self) -> float:
         """Time at which the course ends [s]."""
         return float(self.times[-1])
+
+    def __repr__(self) -> str:
+        last = float(self._fed[-1])
+        words = f"<Feed: {show(self.largest, 'length')}"
+        if last < self.largest:
+            words += f", back to {show(last, 'length')},"
+        words += f" in {show(self.duration, 'time')}, at up to {show(self.fastest, 'speed')}"
+        low, high = float(self.twists.min()), float(self.twists.max())
+        if low != high:
+            words += f", twisted {show(low, 'angle')} to {show(high, 'angle')}"
+        elif low != 0.0:
+            words += f", twisted {show(low, 'angle')}"
+        return f"{words}>"
 
     @property
     def largest(self) -> float:

@@ -14,6 +14,7 @@ from magwire.actuate import Actuator
 from magwire.contact import Barrier, Friction
 from magwire.engine.record import UNIFORM_INPUTS, Scales, patch_length
 from magwire.engine.wall import Firmness, divide, fit
+from magwire.engine.words import system_words
 from magwire.errors import InputError, array, instance, nonnegative, one_of
 from magwire.field import FieldSource, UniformField, as_field
 from magwire.kernels.arrays import Friction as FrictionArrays
@@ -95,6 +96,9 @@ class System:
         object.__setattr__(self, "tip_load", tuple(tip_load.tolist()))
         one_of("Simulation", "release", self.release, ("sliding", "node"))
         self._check_edges()
+
+    def __repr__(self) -> str:
+        return system_words(self, "System")
 
     def _check_edges(self) -> None:
         """Refuse edges that, as chords, are too long for a bend that the wire can reach.

@@ -23,6 +23,7 @@ from magwire.lumen.lazy import Lazy
 from magwire.lumen.names import meant
 from magwire.lumen.search import Search
 from magwire.lumen.tree import join
+from magwire.lumen.words import lumen_words
 
 if TYPE_CHECKING:
     from magwire.vessel import Spot
@@ -77,6 +78,9 @@ class Lumen:
             object.__setattr__(self, "target", self.outlets[0])
         if self.target is not None:
             object.__setattr__(self, "target", self._known("target", self.target))
+
+    def __repr__(self) -> str:
+        return lumen_words(self)
 
     @classmethod
     def straight(cls, length: float, radius: float) -> Lumen:

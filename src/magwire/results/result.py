@@ -12,6 +12,7 @@ from magwire.errors import ResultError, offering, positive, refuse
 from magwire.files import successor
 from magwire.results import disk, forces, loading
 from magwire.results.older import completed
+from magwire.units import show
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -404,7 +405,13 @@ class Result:
     def __repr__(self) -> str:
         title = self.dataset.attrs.get("title", "")
         of = f" of {title!r}" if title else ""
-        return f"<magwire result{of}: {self.status}, {self.time.size} records>"
+        words = f"<Result{of}: {self.status}, {self.time.size} records"
+        if self.time.size:
+            words += f", {show(float(self.feed[-1]), 'length')} inserted in "
+            words += f"{show(float(self.time[-1]), 'time')}; peak field "
+            words += f"{show(self.peak_field, 'flux_density')}, largest tip force "
+            words += f"{show(self.max_tip_force, 'force')}"
+        return f"{words}>"
 
     def _array(self, name: str) -> Array:
         return np.asarray(self.dataset[name].values, dtype=np.float64)

@@ -80,8 +80,9 @@ class Make:
     density, mass_per_length
         [kg/m^3] or [kg/m]; one of them.
     magnetization, remanence
-        Remanent magnetisation [A/m], or flux density [T] of mu_0 times as much: along the axis,
-        or three components (m1, m2, tangent).
+        Remanent magnetisation [A/m], or flux density [T] of mu_0 times as much: one number along
+        the axis, or three components, best written ``mw.across(128e3)`` or ``mw.axial(128e3)``:
+        their order is (m1, m2, tangent), and the *last* one is along the wire.
     rest_curvature
         Curvature of the unloaded wire towards m1 and m2, shape (2,) [1/m].
     rest_twist

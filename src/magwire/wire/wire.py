@@ -20,6 +20,8 @@ from magwire.errors import (
 from magwire.wire.make import Make
 from magwire.wire.section import Section
 
+SHOWN = 4  # sections that a wire lists of itself
+
 
 @dataclass(frozen=True)
 class Wire:
@@ -59,6 +61,16 @@ class Wire:
                 f"{shortest:.6g} m spans an edge; received {self.nodes}."
             )
 
+    def __repr__(self) -> str:
+        lines = [
+            f"{1e3 * section.length:.6g} mm: {section.describe()}" for section in self.sections
+        ]
+        if len(lines) > SHOWN:
+            lines = [*lines[: SHOWN - 1], f"{len(lines) - SHOWN} more", lines[-1]]
+        plural = "" if len(self.sections) == 1 else "s"
+        head = f"Wire of {1e3 * self.length:.6g} mm, {len(self.sections)} section{plural}"
+        return "\n  ".join([f"{head}, {self.nodes} nodes, proximal first:", *lines])
+
     @classmethod
     def uniform(
         cls,
@@ -89,7 +101,9 @@ class Wire:
         magnetized_tip
             Length of the magnetised distal part [m]; the whole length magnetises all of it.
         magnetization
-            Of that part [A/m]: along the axis, or three components (m1, m2, tangent).
+            Remanent magnetisation of that part [A/m]: one number along the axis, or three
+            components, best written ``mw.across(128e3)`` or ``mw.axial(128e3)``: their order is
+            (m1, m2, tangent), and the *last* one is along the wire.
         rest_curvature
             Curvature of the unloaded wire towards m1 and m2, shape (2,) [1/m].
         """
