@@ -63,6 +63,22 @@ def test_messages(check: Callable[[], object], message: str) -> None:
     assert str(caught.value) == message
 
 
+@pytest.mark.parametrize("value", [0.02, "stable", None, dict, object()])
+def test_what_lacks_a_member_is_refused(value: object) -> None:
+    with pytest.raises(errors.InputError, match="Input a of B must be a mapping; received "):
+        errors.offering("B", "a", value, [("keys", "values"), ("mapping",)], "a mapping")
+
+
+def test_one_choice_of_members_is_enough() -> None:
+    errors.offering("B", "a", {}, [("mapping",), ("keys", "values")], "a mapping")
+
+
+def test_what_may_be_left_out() -> None:
+    errors.instance("B", "a", None, dict, or_none=True)
+    with pytest.raises(errors.InputError, match="must be a dict; received None"):
+        errors.instance("B", "a", None, dict)
+
+
 def test_good_values_pass() -> None:
     assert errors.positive("A", "b", np.float32(2.0)) == 2.0
     assert errors.whole("A", "b", np.int64(5), minimum=5) == 5

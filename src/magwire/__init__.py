@@ -56,6 +56,8 @@ if TYPE_CHECKING:
     from magwire.wire import Make as Make
     from magwire.wire import Section as Section
     from magwire.wire import Wire as Wire
+    from magwire.wire import across as across
+    from magwire.wire import axial as axial
 
     __version__: str
 
@@ -101,6 +103,8 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Vessel": ("magwire.vessel", "Vessel"),
     "Wire": ("magwire.wire", "Wire"),
     "device_names": ("magwire.devices", "names"),
+    "across": ("magwire.wire", "across"),
+    "axial": ("magwire.wire", "axial"),
     "load_device": ("magwire.devices", "load"),
     "load_scenario": ("magwire.scenario", "load"),
     "plan": ("magwire.planning", "plan"),
@@ -150,6 +154,8 @@ __all__ = [
     "Vessel",
     "Wire",
     "__version__",
+    "across",
+    "axial",
     "device_names",
     "load_device",
     "load_scenario",

@@ -89,6 +89,68 @@ def refuse(owner: str, name: str, expected: str, value: object, unit: str = "") 
     )
 
 
+def described(value: object) -> str:
+    """A value as messages on kinds show it: plain values as they are, others by what they are."""
+    if isinstance(value, type):
+        return f"the class {value.__name__} itself"
+    if value is None or isinstance(value, (str, bytes, Real, list, tuple, dict, np.ndarray)):
+        return received(value)
+    name = type(value).__name__
+    return f"{'an' if name[0] in 'AEIOaeio' else 'a'} {name}"
+
+
+def instance(owner: str, name: str, value: object, kind: type, *, or_none: bool = False) -> None:
+    """Refuse what is not of a kind: swapped inputs, a class in place of one of it, a number.
+
+    Parameters
+    ----------
+    owner, name
+        Whose input, and which.
+    value
+        What was given.
+    kind
+        What it has to be.
+    or_none
+        Whether it may be left out.
+    """
+    if isinstance(value, kind) or (or_none and value is None):
+        return
+    article = "an" if kind.__name__[0] in "AEIO" else "a"
+    raise InputError(
+        f"Input {name} of {owner} must be {article} {kind.__name__}; received {described(value)}."
+    )
+
+
+def offering(
+    owner: str, name: str, value: object, choices: Iterable[Iterable[str]], expected: str
+) -> None:
+    """Refuse what has not all members of one of the ``choices``, and classes.
+
+    Parameters
+    ----------
+    owner, name
+        Whose input, and which.
+    value
+        What was given.
+    choices
+        Names of members: all those of one choice are needed.
+    expected
+        What it has to be, in words.
+    """
+    kind = isinstance(value, type)
+    if not kind and any(all(hasattr(value, member) for member in some) for some in choices):
+        return
+    raise InputError(f"Input {name} of {owner} must be {expected}; received {described(value)}.")
+
+
+def numbers(owner: str, name: str, value: object) -> NDArray[np.float64]:
+    """Return ``value`` as an array of floats of any shape; refuse what is none."""
+    try:
+        return np.array(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise refuse(owner, name, "numbers", value) from None
+
+
 def finite(owner: str, name: str, value: object, unit: str = "") -> float:
     """Return ``value`` as a float; refuse what is no number, NaN and infinity."""
     if isinstance(value, bool) or not isinstance(value, Real):

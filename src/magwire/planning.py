@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from magwire.contact import Barrier
 from magwire.engine.feed import Feed
-from magwire.errors import InputError
+from magwire.errors import InputError, instance
 from magwire.kernels.wall.barrier import barrier
 from magwire.lumen import Lumen
 from magwire.lumen.branch import Bend
@@ -126,6 +126,10 @@ def plan(
     InputError
         If the wire has no magnetisation, or there is no lumen.
     """
+    instance("plan", "lumen", lumen, Lumen)
+    instance("plan", "wire", wire, Wire)
+    instance("plan", "demands", demands, Demands, or_none=True)
+    instance("plan", "contact", contact, Barrier, or_none=True)
     if not lumen.branches:
         raise InputError("Input lumen of plan must have at least one branch; received open space.")
     if not wire.moment_per_length > 0.0:

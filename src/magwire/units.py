@@ -21,9 +21,20 @@ from magwire.errors import InputError, shortened
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
 _PLAIN = re.compile(r"[+-]?[0-9]+\.?[0-9]*(?:[eE][+-]?[0-9]{1,3})?")
 _NOT_A_NUMBER = re.compile(r"\s*([+-]?(?:nan|inf|infinity))\b\s*(.*?)\s*", re.IGNORECASE)
-# Other spellings of the same thing: both micro signs, middle dot, superscripts, "1 / m".
+# Other spellings of the same thing: both micro signs, both ohms, middle dot, superscripts, "1 / m".
 _SPELLINGS = str.maketrans(
-    {"µ": "u", "μ": "u", "·": " ", "²": "^2", "³": "^3", "°": "deg", "⁻": "-", "¹": "^1"}
+    {
+        "µ": "u",
+        "μ": "u",
+        "·": " ",
+        "²": "^2",
+        "³": "^3",
+        "°": "deg",
+        "⁻": "-",
+        "¹": "^1",
+        "Ω": "ohm",
+        "\u2126": "ohm",
+    }
 )
 
 
@@ -162,6 +173,58 @@ DIMENSIONS: dict[str, Dimension] = {
         ("g/m",),
     ),
     "force": Dimension("force", "1 mN", {"N": 1.0, "mN": 1e-3, "uN": 1e-6, "nN": 1e-9}, ("mN",)),
+    "torque": Dimension(
+        "torque",
+        "1 uN m",
+        {
+            "N m": 1.0,
+            "N*m": 1.0,
+            "Nm": 1.0,
+            "mN m": 1e-3,
+            "uN m": 1e-6,
+            "mN mm": 1e-6,
+            "N mm": 1e-3,
+        },
+        ("mN m", "uN m"),
+    ),
+    "current": Dimension("current", "5 A", {"A": 1.0, "mA": 1e-3, "uA": 1e-6, "kA": 1e3}, ("A",)),
+    "current_density": Dimension(
+        "current density", "5 A/mm^2", {"A/m^2": 1.0, "A/cm^2": 1e4, "A/mm^2": 1e6}, ("A/mm^2",)
+    ),
+    "voltage": Dimension("voltage", "48 V", {"V": 1.0, "mV": 1e-3, "kV": 1e3}, ("V",)),
+    "resistance": Dimension(
+        "resistance", "0.5 ohm", {"ohm": 1.0, "mohm": 1e-3, "kohm": 1e3}, ("ohm", "mohm")
+    ),
+    "inductance": Dimension(
+        "inductance", "20 mH", {"H": 1.0, "mH": 1e-3, "uH": 1e-6}, ("H", "mH", "uH")
+    ),
+    "power": Dimension("power", "500 W", {"W": 1.0, "mW": 1e-3, "kW": 1e3}, ("W", "mW")),
+    "magnetic_moment": Dimension(
+        "magnetic moment",
+        "2 A m^2",
+        {
+            "A m^2": 1.0,
+            "A*m^2": 1.0,
+            "Am^2": 1.0,
+            "mA m^2": 1e-3,
+            "A mm^2": 1e-6,
+            "J/T": 1.0,
+            "emu": 1e-3,
+        },
+        ("A m^2", "mA m^2"),
+    ),
+    "viscous_coefficient": Dimension(
+        "viscous coefficient",
+        "0.1 N s/m",
+        {"N s/m": 1.0, "N*s/m": 1.0, "Ns/m": 1.0, "mN s/m": 1e-3, "mN s/mm": 1.0, "kg/s": 1.0},
+        ("N s/m", "mN s/m"),
+    ),
+    "pressure_per_depth": Dimension(
+        "pressure per depth",
+        "10 MPa/m",
+        {"Pa/m": 1.0, "kPa/m": 1e3, "MPa/m": 1e6, "GPa/m": 1e9, "kPa/mm": 1e6, "N/m^3": 1.0},
+        ("GPa/m", "MPa/m", "kPa/m", "Pa/m"),
+    ),
     "dimensionless": Dimension("none", "0.5", {"": 1.0, "1": 1.0}, ("",)),
 }
 
@@ -315,5 +378,6 @@ def _wrong_unit(what: str, kind: Dimension, unit: str, text: str) -> str:
         return f"{needs} {text}."
     other = [k.name for k in DIMENSIONS.values() if unit in k.units and k is not kind]
     if other:
-        return f"{needs} {text!r}, which is a {other[0]}."
+        article = "an" if other[0][0] in "aeiou" else "a"
+        return f"{needs} {text!r}, which is {article} {other[0]}."
     return f"{needs} {text!r}."

@@ -138,7 +138,10 @@ def test_figures_of_a_result() -> None:
     assert result.wall_time == pytest.approx(0.72)
     assert result.position.shape == (73, 20, 3)
     assert np.isnan(result.clearance[0, 0])
-    assert "complete, 73 records" in repr(result)
+    shown = repr(result)
+    assert "complete, 73 records, " in shown
+    assert "mm inserted in" in shown
+    assert shown.endswith("mN>")
 
 
 def test_run_without_contact() -> None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.errors import InputError, array, nonnegative
+from magwire.errors import InputError, array, nonnegative, numbers
 
 Array = NDArray[np.float64]
 Coefficient = float | tuple[float, ...]
@@ -47,8 +47,8 @@ class Friction:
         nonnegative("Friction", "drag", self.drag, "N s/m^2")
         for name in ("static", "kinetic"):
             value = getattr(self, name)
-            if value is not None:
-                for one in np.atleast_1d(value):
+            if name == "static" or value is not None:
+                for one in numbers("Friction", name, value).ravel():
                     nonnegative("Friction", name, float(one))
         static, kinetic = np.atleast_1d(self.static), np.atleast_1d(self._moving)
         if static.shape != kinetic.shape and 1 not in (len(static), len(kinetic)):
@@ -66,7 +66,10 @@ class Friction:
                 "Input drag of Friction must be 0 where static is given: a wall is lubricated or "
                 f"it is not; received {self.drag:g} N s/m^2."
             )
-        table = array("Friction", "along", np.reshape(self.along, (-1, 2)), (None, 2))
+        along = (
+            self.along if np.size(numbers("Friction", "along", self.along)) else np.empty((0, 2))
+        )
+        table = array("Friction", "along", along, (None, 2))
         if np.any(np.diff(table[:, 0]) <= 0.0) or np.any(table[:, 1] < 0.0):
             raise InputError(
                 "Input along of Friction must have rising arcs and factors that are not negative; "

@@ -19,7 +19,6 @@ def names() -> tuple[str, ...]:
     return tuple(sorted(e.name.removesuffix(".toml") for e in entries if e.name.endswith(".toml")))
 
 
-@cache
 def load(name: str) -> Device:
     """A device of the library.
 
@@ -37,6 +36,11 @@ def load(name: str) -> Device:
         near = difflib.get_close_matches(str(name), names(), n=1)
         hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(names())}."
         raise InputError(f"There is no device '{name}'; {hint}")
+    return _read(name)
+
+
+@cache
+def _read(name: str) -> Device:
     text = files("magwire.devices").joinpath("library", f"{name}.toml").read_text("utf-8")
     return _device(name, tomllib.loads(text))
 

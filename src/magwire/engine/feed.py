@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from magwire.errors import InputError, array, finite, positive
+from magwire.units import show
 
 Array = NDArray[np.float64]
 
@@ -57,7 +58,8 @@ class Feed:
             If times do not start at 0 and rise, or the wire would be pulled out of the guide.
         """
         feed = cls.__new__(cls)
-        feed._set(times, speeds, np.zeros(len(times)) if twists is None else twists)
+        knots = array("Feed", "times", times, (None,), "s")
+        feed._set(knots, speeds, np.zeros(len(knots)) if twists is None else twists)
         return feed
 
     def _set(self, times: ArrayLike, speeds: ArrayLike, twists: ArrayLike) -> None:
@@ -91,6 +93,19 @@ class Feed:
     def duration(self) -> float:
         """Time at which the course ends [s]."""
         return float(self.times[-1])
+
+    def __repr__(self) -> str:
+        last = float(self._fed[-1])
+        words = f"<Feed: {show(self.largest, 'length')}"
+        if last < self.largest:
+            words += f", back to {show(last, 'length')},"
+        words += f" in {show(self.duration, 'time')}, at up to {show(self.fastest, 'speed')}"
+        low, high = float(self.twists.min()), float(self.twists.max())
+        if low != high:
+            words += f", twisted {show(low, 'angle')} to {show(high, 'angle')}"
+        elif low != 0.0:
+            words += f", twisted {show(low, 'angle')}"
+        return f"{words}>"
 
     @property
     def largest(self) -> float:

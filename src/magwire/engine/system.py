@@ -14,8 +14,9 @@ from magwire.actuate import Actuator
 from magwire.contact import Barrier, Friction
 from magwire.engine.record import UNIFORM_INPUTS, Scales, patch_length
 from magwire.engine.wall import Firmness, divide, fit
-from magwire.errors import InputError, array, nonnegative, one_of
-from magwire.field import FieldSource, UniformField
+from magwire.engine.words import system_words
+from magwire.errors import InputError, array, instance, nonnegative, one_of
+from magwire.field import FieldSource, UniformField, as_field
 from magwire.kernels.arrays import Friction as FrictionArrays
 from magwire.kernels.arrays import Guide, Rod, State, Tube, Wall, Work
 from magwire.kernels.band import HALF_BANDWIDTH, WIDTH
@@ -81,6 +82,12 @@ class System:
     actuator: Actuator | None = None
 
     def __post_init__(self) -> None:
+        instance("Simulation", "wire", self.wire, Wire)
+        instance("Simulation", "lumen", self.lumen, Lumen)
+        instance("Simulation", "contact", self.contact, Barrier)
+        instance("Simulation", "friction", self.friction, Friction, or_none=True)
+        instance("Simulation", "actuator", self.actuator, Actuator, or_none=True)
+        object.__setattr__(self, "background", as_field("Simulation", self.background))
         nonnegative("Simulation", "damping", self.damping, "1/s")
         nonnegative("Simulation", "fluid_density", self.fluid_density, "kg/m^3")
         gravity = array("Simulation", "gravity", self.gravity, (3,), "m/s^2")
@@ -89,6 +96,9 @@ class System:
         object.__setattr__(self, "tip_load", tuple(tip_load.tolist()))
         one_of("Simulation", "release", self.release, ("sliding", "node"))
         self._check_edges()
+
+    def __repr__(self) -> str:
+        return system_words(self, "System")
 
     def _check_edges(self) -> None:
         """Refuse edges that, as chords, are too long for a bend that the wire can reach.

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from magwire.errors import InputError, array, nonnegative, positive, whole
+from magwire.errors import InputError, array, instance, nonnegative, numbers, positive, whole
 from magwire.kernels.centreline import LumenArrays
 from magwire.lumen import shapes
 from magwire.lumen.branch import Bend, Branch
@@ -23,6 +23,7 @@ from magwire.lumen.lazy import Lazy
 from magwire.lumen.names import meant
 from magwire.lumen.search import Search
 from magwire.lumen.tree import join
+from magwire.lumen.words import lumen_words
 
 if TYPE_CHECKING:
     from magwire.vessel import Spot
@@ -70,12 +71,16 @@ class Lumen:
                     f"{type(branch).__name__}."
                 )
         object.__setattr__(self, "branches", tuple(branches))
+        instance("Lumen", "paths", self.paths, Mapping)
         paths = self.paths if isinstance(self.paths, Lazy) else MappingProxyType(dict(self.paths))
         object.__setattr__(self, "paths", paths)
         if self.target is None and self.paths:
             object.__setattr__(self, "target", self.outlets[0])
         if self.target is not None:
             object.__setattr__(self, "target", self._known("target", self.target))
+
+    def __repr__(self) -> str:
+        return lumen_words(self)
 
     @classmethod
     def straight(cls, length: float, radius: float) -> Lumen:
@@ -172,7 +177,8 @@ class Lumen:
         radius
             Inner radius [m], one number or one for each point, shape (q,).
         """
-        return cls((Branch(np.asarray(points), np.asarray(radius)),))
+        line = array("Lumen.through", "points", points, (None, 3), "m")
+        return cls((Branch(line, numbers("Lumen.through", "radius", radius)),))
 
     @classmethod
     def bends(cls, table: ArrayLike, radius: float, points: int = 200) -> Lumen:
@@ -306,6 +312,7 @@ class Lumen:
         owner = "Lumen.ways"
         if blend is not None:
             nonnegative(owner, "blend", blend, "m")
+        instance(owner, "balls", balls, Mapping)
         given = {name: array(owner, "balls", rows, (None, 4), "m") for name, rows in balls.items()}
         if not given:
             raise InputError(
@@ -465,6 +472,7 @@ class Lumen:
 
     def _known(self, name: str, outlet: str) -> str:
         """The name of an outlet, checked."""
+        instance("Lumen", name, outlet, str)
         outlet = meant(outlet, tuple(self.paths))
         if outlet in self.paths:
             return outlet

@@ -8,7 +8,7 @@ from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from magwire.errors import whole
+from magwire.errors import offering, refuse, whole
 from magwire.many.cluster import run_there
 from magwire.many.job import Job
 from magwire.many.outcome import Outcome
@@ -58,6 +58,13 @@ def run_many(
     InputError
         If ``workers`` or ``cluster`` cannot be used.
     """
+    given: object = scenarios
+    if isinstance(given, (str, bytes)) or not isinstance(given, Iterable):
+        raise refuse("run_many", "scenarios", "a list of scenarios", given)
+    scenarios = list(scenarios)
+    for scenario in scenarios:
+        expected = "scenarios as magwire.load_scenario gives them"
+        offering("run_many", "scenarios", scenario, [("to_toml",)], expected)
     count = whole("run_many", "workers", cores() if workers is None else workers, minimum=1)
     folder = None if out is None else Path(out)
     if folder is not None:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from magwire.errors import InputError, positive, within
+import numpy as np
+
+from magwire.errors import InputError, positive, refuse, within
 from magwire.navigate.navigator import NavigationError
 
 ROUND_OFF = 1e-12  # part of a limit that is kept free for the rounding of what comes after
@@ -40,6 +42,8 @@ class Demands:
         within("Demands", "field_tolerance", self.field_tolerance, low=0.0, high=0.5)
         for name, unit in (("max_field", "T"), ("max_field_rate", "T/m")):
             value = getattr(self, name)
+            if isinstance(value, bool) or not isinstance(value, (int, float, np.floating)):
+                raise refuse("Demands", name, "a number", value)
             if not value > 0.0:
                 raise InputError(
                     f"Input {name} of Demands must be positive; received {value} {unit}."

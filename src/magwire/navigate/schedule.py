@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from magwire.errors import InputError, array, positive
+from magwire.errors import InputError, array, finite, numbers, positive
 
 Array = NDArray[np.float64]
 
@@ -57,7 +57,7 @@ class Schedule:
 
     def at(self, feed: ArrayLike) -> Array:
         """Flux density at feeds, shape (n, 3) [T]."""
-        where = np.atleast_1d(np.asarray(feed, dtype=np.float64))
+        where = np.atleast_1d(numbers("Schedule.at", "feed", feed))
         columns = [np.interp(where, self.feed, self.flux_density[:, c]) for c in range(3)]
         return np.stack(columns, axis=1)
 
@@ -70,4 +70,4 @@ class Schedule:
 
     def scaled(self, factor: float) -> Schedule:
         """The schedule with all field values multiplied by a factor."""
-        return Schedule(self.feed, factor * self.flux_density)
+        return Schedule(self.feed, finite("Schedule.scaled", "factor", factor) * self.flux_density)

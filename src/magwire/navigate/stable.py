@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.engine.system import System
-from magwire.errors import InputError, positive
+from magwire.errors import InputError, instance, positive
 from magwire.lumen import Lumen
 from magwire.navigate.demands import Demands
 from magwire.navigate.model import Model
@@ -60,6 +60,9 @@ class StableNavigator:
         demands: Demands | None = None,
         plan_every: float | None = None,
     ) -> None:
+        instance("StableNavigator", "system", system, System)
+        instance("StableNavigator", "path", path, Lumen, or_none=True)
+        instance("StableNavigator", "demands", demands, Demands, or_none=True)
         path = system.path if path is None else path
         if len(path.branches) != 1:
             raise InputError(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from magwire.engine.system import System
-from magwire.errors import positive, whole
+from magwire.errors import instance, positive, whole
 from magwire.navigate.demands import Demands
 from magwire.navigate.navigator import Navigator
 from magwire.navigate.persistent import ATTEMPTS, persistent
@@ -42,6 +42,7 @@ class TipNavigator:
     attempts: int = ATTEMPTS
 
     def __post_init__(self) -> None:
+        instance("TipNavigator", "demands", self.demands, Demands)
         positive("TipNavigator", "update_every", self.update_every, "m")
         whole("TipNavigator", "attempts", self.attempts, minimum=1)
         if self.plan_every is not None:

@@ -84,7 +84,7 @@ class ForceLimit:
     ) -> None:
         self._limits = {"tip": tip, "wall": wall, "push": push}
         for name, value in self._limits.items():
-            if np.isfinite(value):
+            if value != float("inf"):
                 positive("ForceLimit", name, value, "N")
 
     def __call__(self, record: Record) -> Ending | None:

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.errors import ResultError, positive
+from magwire.errors import ResultError, offering, positive, refuse
 from magwire.files import successor
 from magwire.results import disk, forces, loading
 from magwire.results.older import completed
+from magwire.units import show
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,6 +40,9 @@ class Result:
     """
 
     def __init__(self, dataset: xr.Dataset) -> None:
+        offering(
+            "Result", "dataset", dataset, [("attrs", "sizes", "data_vars")], "an xarray Dataset"
+        )
         self.dataset = completed(dataset)
 
     @classmethod
@@ -55,6 +59,8 @@ class Result:
         ResultError
             If it is no result file.
         """
+        if not isinstance(path, (str, Path)):
+            raise refuse("Result.load", "path", "a file or folder", path)
         path = Path(path)
         if path.is_dir():
             if not (path / FILE).exists():
@@ -399,7 +405,13 @@ class Result:
     def __repr__(self) -> str:
         title = self.dataset.attrs.get("title", "")
         of = f" of {title!r}" if title else ""
-        return f"<magwire result{of}: {self.status}, {self.time.size} records>"
+        words = f"<Result{of}: {self.status}, {self.time.size} records"
+        if self.time.size:
+            words += f", {show(float(self.feed[-1]), 'length')} inserted in "
+            words += f"{show(float(self.time[-1]), 'time')}; peak field "
+            words += f"{show(self.peak_field, 'flux_density')}, largest tip force "
+            words += f"{show(self.max_tip_force, 'force')}"
+        return f"{words}>"
 
     def _array(self, name: str) -> Array:
         return np.asarray(self.dataset[name].values, dtype=np.float64)

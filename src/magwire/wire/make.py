@@ -6,8 +6,6 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from numbers import Real
 
-import numpy as np
-
 from magwire.errors import InputError, array, finite, nonnegative, positive, within
 from magwire.wire.section import MU_0, Section, Stiffness, Vector3
 
@@ -82,8 +80,9 @@ class Make:
     density, mass_per_length
         [kg/m^3] or [kg/m]; one of them.
     magnetization, remanence
-        Remanent magnetisation [A/m], or flux density [T] of mu_0 times as much: along the axis,
-        or three components (m1, m2, tangent).
+        Remanent magnetisation [A/m], or flux density [T] of mu_0 times as much: one number along
+        the axis, or three components, best written ``mw.across(128e3)`` or ``mw.axial(128e3)``:
+        their order is (m1, m2, tangent), and the *last* one is along the wire.
     rest_curvature
         Curvature of the unloaded wire towards m1 and m2, shape (2,) [1/m].
     rest_twist
@@ -198,6 +197,6 @@ def _vector(name: str, value: float | Sequence[float] | None, unit: str) -> Vect
     """Three components, of which a lone number is the one along the axis."""
     if value is None:
         return (0.0, 0.0, 0.0)
-    whole = (0.0, 0.0, value) if isinstance(value, Real) else value
-    x, y, z = array("Make", name, np.asarray(whole), (3,), unit).tolist()
+    whole = (0.0, 0.0, float(value)) if isinstance(value, Real) else value
+    x, y, z = array("Make", name, whole, (3,), unit).tolist()
     return (x, y, z)

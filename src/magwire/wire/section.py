@@ -55,7 +55,8 @@ class Section:
     inner_radius
         Radius of a bore [m]; 0 for a solid wire. It tapers in proportion.
     magnetization
-        Remanent magnetisation in the material frame (m1, m2, tangent), shape (3,) [A/m].
+        Remanent magnetisation [A/m], shape (3,), best written ``mw.axial(128e3)`` or
+        ``mw.across(128e3)``: the components are (m1, m2, tangent), the *last* one along the wire.
     rest_curvature
         Curvature of the unloaded wire towards m1 and towards m2, shape (2,) [1/m].
     rest_twist
@@ -150,8 +151,16 @@ class Section:
         words += f", EA {self.stretching_stiffness:.4g} N"
         size = math.hypot(*self.magnetization)
         if size > 0.0:
-            words += f", magnetised {1e-3 * size:.6g} kA/m (remanence {MU_0 * size:.4g} T)"
+            words += f", magnetised {1e-3 * size:.6g} kA/m{self._slant(size)}"
+            words += f" (remanence {MU_0 * size:.4g} T)"
         return words
+
+    def _slant(self, size: float) -> str:
+        """How the magnetisation lies to the axis, if it is not along it."""
+        slant = math.degrees(math.acos(min(abs(self.magnetization[2]) / size, 1.0)))
+        if slant < 0.01:
+            return ""
+        return " across the axis" if slant > 89.99 else f" at {slant:.4g} deg to the axis"
 
     @property
     def ratio(self) -> float:

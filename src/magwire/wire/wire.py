@@ -5,10 +5,22 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from numbers import Real
 
-from magwire.errors import InputError, nonnegative, refuse, whole
+from magwire.errors import (
+    InputError,
+    array,
+    described,
+    instance,
+    nonnegative,
+    positive,
+    refuse,
+    whole,
+)
 from magwire.wire.make import Make
 from magwire.wire.section import Section
+
+SHOWN = 4  # sections that a wire lists of itself
 
 
 @dataclass(frozen=True)
@@ -32,6 +44,11 @@ class Wire:
     nodes: int
 
     def __post_init__(self) -> None:
+        if isinstance(self.sections, (str, bytes)) or not isinstance(self.sections, Sequence):
+            raise InputError(
+                "Input sections of Wire must be a list of Section; received "
+                f"{described(self.sections)}."
+            )
         if not self.sections or not all(isinstance(s, Section) for s in self.sections):
             raise refuse("Wire", "sections", "at least one Section", self.sections)
         object.__setattr__(self, "sections", tuple(self.sections))
@@ -43,6 +60,16 @@ class Wire:
                 f"Input nodes of Wire must be at least {needed}, so that the section of "
                 f"{shortest:.6g} m spans an edge; received {self.nodes}."
             )
+
+    def __repr__(self) -> str:
+        lines = [
+            f"{1e3 * section.length:.6g} mm: {section.describe()}" for section in self.sections
+        ]
+        if len(lines) > SHOWN:
+            lines = [*lines[: SHOWN - 1], f"{len(lines) - SHOWN} more", lines[-1]]
+        plural = "" if len(self.sections) == 1 else "s"
+        head = f"Wire of {1e3 * self.length:.6g} mm, {len(self.sections)} section{plural}"
+        return "\n  ".join([f"{head}, {self.nodes} nodes, proximal first:", *lines])
 
     @classmethod
     def uniform(
@@ -74,18 +101,20 @@ class Wire:
         magnetized_tip
             Length of the magnetised distal part [m]; the whole length magnetises all of it.
         magnetization
-            Of that part [A/m]: along the axis, or three components (m1, m2, tangent).
+            Remanent magnetisation of that part [A/m]: one number along the axis, or three
+            components, best written ``mw.across(128e3)`` or ``mw.axial(128e3)``: their order is
+            (m1, m2, tangent), and the *last* one is along the wire.
         rest_curvature
             Curvature of the unloaded wire towards m1 and m2, shape (2,) [1/m].
         """
+        positive("Wire", "length", length, "m")
         tip = nonnegative("Wire", "magnetized_tip", magnetized_tip, "m")
         if tip > length:
             raise refuse("Wire", "magnetized_tip", f"at most the length {length:.10g} m", tip, "m")
-        magnet: Sequence[float]
-        if isinstance(magnetization, (int, float)):
-            magnet = (0.0, 0.0, magnetization)
-        else:
-            magnet = magnetization
+        lone = isinstance(magnetization, Real)
+        magnet = (0.0, 0.0, magnetization) if lone else magnetization
+        moment = array("Wire", "magnetization", magnet, (3,), "A/m").tolist()
+        curved = array("Wire", "rest_curvature", rest_curvature, (2,), "1/m").tolist()
 
         def section(part: float, moments: Sequence[float]) -> Section:
             return Section(
@@ -96,14 +125,14 @@ class Wire:
                 density=density,
                 inner_radius=inner_radius,
                 magnetization=tuple(moments),  # type: ignore[arg-type]
-                rest_curvature=tuple(rest_curvature),  # type: ignore[arg-type]
+                rest_curvature=(curved[0], curved[1]),
             )
 
         parts = []
         if tip < length or tip == 0.0:
             parts.append(section(length - tip, (0.0, 0.0, 0.0)))
         if tip > 0.0:
-            parts.append(section(tip, magnet))
+            parts.append(section(tip, moment))
         return cls(sections=tuple(parts), nodes=nodes)
 
     @classmethod
@@ -126,6 +155,7 @@ class Wire:
         InputError
             If a value is out of its range.
         """
+        instance("Wire", "make", make, Make)
         tip = nonnegative("Wire", "magnetized_tip", magnetized_tip, "m")
         whole = make.section(length)
         if tip > length:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from magwire.errors import InputError, described
 from magwire.files import LARGEST_TEXT, read_bytes
 from magwire.vessel.files import (
     meshes,
@@ -77,6 +78,12 @@ def load(source: str | Path | Sequence[str | Path], radius: str | None = None) -
         If the file cannot be read, is of another format or holds nothing that can be used.
     """
     if not isinstance(source, (str, Path)):
+        files_of = isinstance(source, Sequence) and all(isinstance(p, (str, Path)) for p in source)
+        if not files_of:
+            raise InputError(
+                "Input path of Vessel must be a file, a folder or a list of files; received "
+                f"{described(source)}."
+            )
         return _together([Path(path) for path in source], radius)
     place = Path(source)
     if place.is_dir():
