@@ -10,6 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from magwire.batch import Batch as Batch
     from magwire.contact import Barrier as Barrier
     from magwire.engine.feed import Feed as Feed
     from magwire.engine.hold import Hold as Hold
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
 
 _HOMES: dict[str, tuple[str, str]] = {
     "Barrier": ("magwire.contact", "Barrier"),
+    "Batch": ("magwire.batch", "Batch"),
     "ConvergenceError": ("magwire.errors", "ConvergenceError"),
     "Demands": ("magwire.navigate.demands", "Demands"),
     "Equilibrium": ("magwire.engine.statics", "Equilibrium"),
@@ -78,6 +80,7 @@ _HOMES: dict[str, tuple[str, str]] = {
 
 __all__ = [
     "Barrier",
+    "Batch",
     "ConvergenceError",
     "Demands",
     "Equilibrium",

@@ -45,7 +45,7 @@ class Sight(NamedTuple):
         Of the actuator, shape (n, m).
     tip_arc
         How far the tip has come on the way to the lumen's target, shape (n,) [m]; NaN where it is
-        not near that way.
+        off that way, such as in another branch.
     branch
         Number of the lumen's branch that the tip is in, shape (n,); -1 where it is in none.
     """
@@ -301,6 +301,8 @@ class Batch:
     def observe(self) -> Sight:
         """What can be seen of all wires now; no compiled code is called for it."""
         orders, seen, length = self._orders, self._orders.seen, self._length
+        gap = seen[:, GLANCE + 1]
+        inside = (gap > 0.0) & (gap < np.inf)  # of the way, as a tube: elsewhere any ball may be it
         force = self._force
         return Sight(
             time=self._time.copy(),
@@ -313,7 +315,7 @@ class Batch:
             patch_force=seen[:, 8] * force,
             clearance=seen[:, 9] * length,
             inputs=orders.held.copy(),
-            tip_arc=seen[:, GLANCE] * length,
+            tip_arc=np.where(inside, seen[:, GLANCE] * length, np.nan),
             branch=seen[:, GLANCE + 2].astype(np.int64),
         )
 

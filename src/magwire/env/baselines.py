@@ -6,7 +6,7 @@ episodes.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -57,6 +57,25 @@ class Chance:
         return self._chance.uniform(-1.0, 1.0, env.action_space.shape)
 
 
+class Linear:
+    """Actions that are linear in what is observed.
+
+    Parameters
+    ----------
+    weights
+        Shape (actions, observed + 1), or of one such for each wire, shape (n, ...); the last column
+        counts without regard to what is observed.
+    """
+
+    def __init__(self, weights: Array) -> None:
+        self.weights = np.asarray(weights, dtype=np.float64)
+
+    def __call__(self, env: WireVectorEnv, observed: Any) -> Array:
+        """Actions of all wires, shape (n, 2 + m)."""
+        seen = np.hstack([observed, np.ones((len(observed), 1))])
+        return np.asarray(np.sum(self.weights * seen[:, None], axis=-1))
+
+
 class Navigator:
     """The field that the scenario's own navigator finds for an anatomy, at full speed of the feed.
 
@@ -84,16 +103,13 @@ class Navigator:
         return self._plans[key][1]
 
 
-def score(
-    make: Callable[[], WireVectorEnv], policy: Policy, seeds: Sequence[int]
-) -> dict[str, Array]:
-    """Returns of one episode for each seed.
+def score(env: WireVectorEnv, policy: Policy, seeds: Sequence[int]) -> dict[str, Array]:
+    """Play one episode in each wire to its end.
 
     Parameters
     ----------
-    make
-        Gives an environment with as many wires as there are to play at once, and
-        ``autoreset_mode="Disabled"``.
+    env
+        The wires.
     policy
         Who acts.
     seeds
@@ -105,7 +121,6 @@ def score(
         ``returns``, ``costs`` [N], the sum over actions, ``success``, ``progress``,
         ``unconverged`` and ``length``, each of shape (len(seeds),).
     """
-    env = make()
     observed, _ = env.reset(seed=list(seeds))
     n = env.num_envs
     names = ("returns", "costs", "success", "progress", "unconverged", "length")
@@ -114,7 +129,7 @@ def score(
     while running.any():
         actions = policy(env, observed)
         env.episodes.act(actions, running)
-        observed, info = env.episodes.seen["vector"], env.episodes.info
+        observed, info = env.observed(), env.episodes.info
         total["returns"] += env.episodes.reward
         total["costs"] += np.where(running, info["cost"], 0.0)
         total["length"] += running
@@ -123,7 +138,6 @@ def score(
         for name in ("success", "progress"):
             total[name][ended] = info[name][ended]
         running &= ~ended
-    env.close()
     return total
 
 

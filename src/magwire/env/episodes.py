@@ -7,6 +7,7 @@ for bit what it gives among others.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,10 +19,11 @@ from magwire.env import anatomy
 from magwire.env.anatomy import ROWS, Anatomy
 from magwire.env.picture import SMALL, View
 from magwire.env.task import AHEAD, Task
+from magwire.kernels.guide import place_held
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-Seen = dict[str, NDArray[np.generic]]
+Seen = dict[str, NDArray[Any]]
 
 BOUND = 10.0
 """No observed number is larger; those of a wire in its lumen are around one."""
@@ -70,11 +72,11 @@ class Episodes:
         self._views: list[View | None] = [None] * count
         self.reward = np.zeros(count)
         self.terminated, self.truncated = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
-        self.info: dict[str, NDArray[np.generic]] = {}
+        self.info: dict[str, NDArray[Any]] = {}
         self._history: list[Seen] = []
-        self._shown: Seen = {}
-        self._see(self._rows)
-        self._history = [self._copy(self._history[-1]) for _ in range(task.delay + 1)]
+        seen = self._look(self._rows)
+        self._history = [self._copy(seen) for _ in range(task.delay + 1)]
+        self._shown = self._copy(seen)
 
     def begin(
         self, wires: Sequence[int], chances: Sequence[np.random.Generator], feed: float | None
@@ -102,12 +104,10 @@ class Episodes:
         for kept in (self._asked, self._last, self._taken, self._arc, self.reward):
             kept[some] = 0
         self.terminated[some] = self.truncated[some] = False
-        self._see(some)
-        for older in self._history:
+        seen = self._look(some)
+        for older in (*self._history, self._shown):
             for name, values in older.items():
-                values[some] = self._history[-1][name][some]
-        for name, values in self._shown.items():
-            values[some] = self._history[-1][name][some]
+                values[some] = seen[name][some]
 
     def _move_in(self, i: int, new: Anatomy) -> None:
         """Give a wire another anatomy."""
@@ -136,7 +136,8 @@ class Episodes:
         self._last = np.where(only[:, None], action, self._last)
         self._taken += only
         before = self._arc.copy()
-        self._see(self._rows)
+        moved = np.flatnonzero(only)
+        self._remember(self._look(moved), only)
         failed = ended != 0
         force = self.info["max_wall_force"]
         gained = np.where(only, (self._arc - before) / self._goal, 0.0)
@@ -147,8 +148,8 @@ class Episodes:
         pressed = np.minimum(force / task.force_limit, HARDEST)
         reward = PROGRESS * gained + SUCCESS * self.terminated - HASTE / task.actions
         self.reward = np.where(only, reward - PRESSURE * pressed, 0.0)
-        self.info["unconverged"] = failed
-        self.info["command"] = np.column_stack([speed, rate, applied])
+        self.info["unconverged"][moved] = failed[moved]
+        self.info["command"][moved] = np.column_stack([speed, rate, applied])[moved]
 
     def _wanted(self, share: Array) -> Array:
         """Inputs that actions ask for, shape (n, m)."""
@@ -167,35 +168,42 @@ class Episodes:
             return share
         return np.column_stack([dot(share, self._frame[:, c]) for c in range(3)])
 
-    def _see(self, fresh: NDArray[np.int64]) -> None:
-        """Look at all wires; those in ``fresh`` have changed."""
+    def _look(self, fresh: NDArray[np.int64]) -> Seen:
+        """What is observed of all wires; those in ``fresh`` have changed."""
         sight = self.batch.observe()
         arc = np.where(np.isfinite(sight.tip_arc), sight.tip_arc, self._arc)
         self._arc = np.maximum(arc, 0.0)
-        tip, arc = sight.tip, self._arc
+        tip = sight.tip
         if self.task.noise > 0.0:
-            error = np.zeros((len(self._rows), 3))
             for i in fresh:
-                error[i] = self.task.noise * self._chance[i].standard_normal(3)
-            tip = tip + error
-        rows = self._along(arc)
+                tip[i] += self.task.noise * self._chance[i].standard_normal(3)
+        rows = self._along(self._arc)
         self._frame = rows[:, 0, 4:].reshape(-1, 3, 3)
-        numbers = self._numbers(sight, tip, rows)
-        seen: Seen = {"vector": np.clip(numbers, -BOUND, BOUND).astype(np.float32)}
+        numbers = np.clip(self._numbers(sight, tip, rows), -BOUND, BOUND)
+        seen: Seen = {"vector": numbers.astype(np.float32)}
         if self.task.image:
             seen["image"] = self._images(fresh)
-        self._remember(seen)
-        over = np.maximum(sight.patch_force - self.task.force_limit, 0.0)
-        self.info = {
+        self._tell(sight, fresh)
+        return seen
+
+    def _tell(self, sight: Sight, fresh: NDArray[np.int64]) -> None:
+        """Renew what is told of some wires, in arrays of its own."""
+        n = len(self._rows)
+        told: dict[str, NDArray[Any]] = {
             "tip_force": sight.tip_force,
             "max_wall_force": sight.patch_force,
-            "cost": over,
+            "cost": np.maximum(sight.patch_force - self.task.force_limit, 0.0),
             "progress": self._arc / self._goal,
             "success": self._arc >= self._goal,
             "branch": sight.branch,
-            "unconverged": np.zeros(len(self._rows), dtype=bool),
-            "command": np.zeros((len(self._rows), 2 + self.inputs)),
+            "unconverged": np.zeros(n, dtype=bool),
+            "command": np.zeros((n, 2 + self.inputs)),
         }
+        for name, before in self.info.items():
+            values = before.copy()
+            values[fresh] = told[name][fresh]
+            told[name] = values
+        self.info = told
 
     def _along(self, arc: Array) -> Array:
         """Rows of the paths' tables at the tip and ahead of it, shape (n, 1 + ahead, 13)."""
@@ -229,14 +237,14 @@ class Episodes:
             return self._asked
         return np.column_stack([dot(self._asked, self._frame[:, c]) for c in range(3)])
 
-    def _remember(self, seen: Seen) -> None:
+    def _remember(self, seen: Seen, moved: Flags) -> None:
         """Keep what is seen, and show what is due: late, and not after every action."""
-        self._history = [*self._history, seen][-(self.task.delay + 1) :]
-        due = self._taken % self.task.observe_every == 0
-        late = self._history[0]
-        if not self._shown:
-            self._shown = self._copy(late)
-        for name, values in late.items():
+        entry = self._copy(self._history[-1])
+        for name, values in seen.items():
+            entry[name][moved] = values[moved]
+        self._history = [*self._history, entry][-(self.task.delay + 1) :]
+        due = moved & (self._taken % self.task.observe_every == 0)
+        for name, values in self._history[0].items():
             self._shown[name][due] = values[due]
 
     def _images(self, fresh: NDArray[np.int64]) -> NDArray[np.uint8]:
@@ -261,10 +269,12 @@ class Episodes:
     def nodes(self, i: int) -> Array:
         """Where a wire's nodes are, shape (nodes, 3) [m]."""
         plant = self.batch.plant(i)
+        system, state = plant.system, plant.state
+        place_held(system.rod, system.guide, state, 0, int(state.held[0]), *state.guide)
         return np.asarray(plant.state.q[1:, :3] * plant.system.wire.length)
 
     @staticmethod
-    def _copy(seen: Mapping[str, NDArray[np.generic]]) -> Seen:
+    def _copy(seen: Mapping[str, NDArray[Any]]) -> Seen:
         return {name: values.copy() for name, values in seen.items()}
 
     @property

@@ -1,4 +1,4 @@
-"""What an environment asks for: a scenario, limits of the actions, what is observed, what counts."""
+"""What an environment asks for: a scenario, limits of actions, what is observed, what counts."""
 
 from __future__ import annotations
 

@@ -108,7 +108,7 @@ class WireVectorEnv(VectorEnv[Any, NDArray[np.float32], NDArray[Any]]):
                 self._chances[i] = seeding.np_random(seeds[i])[0]
         self._begin(mask, options.get("feed"))
         self._ended[mask] = False
-        return observation(self.task, self.episodes.seen), self._info(mask)
+        return self.observed(), self._info(mask)
 
     def _begin(self, mask: Flags, feed: float | None = None) -> None:
         chosen = np.flatnonzero(mask).tolist()
@@ -127,16 +127,14 @@ class WireVectorEnv(VectorEnv[Any, NDArray[np.float32], NDArray[Any]]):
             )
         now.act(actions, ~ended)
         if ended.any():  # these start anew with this step, whatever the action
-            told = now.info
             self._begin(ended)
-            now.info = _merged(told, now.info, ended)
         result = now.reward.copy(), now.terminated.copy(), now.truncated.copy()
         self._ended = result[1] | result[2]
         more: dict[str, Any] = {}
         if self.autoreset_mode is AutoresetMode.SAME_STEP and self._ended.any():
             more = self._start_again()
         everybody = np.ones(self.num_envs, dtype=bool)
-        return observation(self.task, now.seen), *result, {**self._info(everybody), **more}
+        return self.observed(), *result, {**self._info(everybody), **more}
 
     def _start_again(self) -> dict[str, Any]:
         """Begin the next episodes of those that have ended; what was last of the old ones."""
@@ -147,7 +145,6 @@ class WireVectorEnv(VectorEnv[Any, NDArray[np.float32], NDArray[Any]]):
             final[i] = observation(self.task, last, int(i))
         kept = {name: np.where(_like(ended, values), values, 0) for name, values in told.items()}
         self._begin(ended)
-        now.info = _merged(told, now.info, ended)
         self._ended = np.zeros(self.num_envs, dtype=bool)
         return {
             "final_obs": final,
@@ -155,6 +152,10 @@ class WireVectorEnv(VectorEnv[Any, NDArray[np.float32], NDArray[Any]]):
             "final_info": {**kept, **{f"_{name}": ended for name in kept}},
             "_final_info": ended,
         }
+
+    def observed(self) -> Any:
+        """What is observed of all wires now."""
+        return observation(self.task, self.episodes.seen)
 
     def _info(self, mask: Flags) -> dict[str, Any]:
         told = self.episodes.info
@@ -178,12 +179,3 @@ class WireVectorEnv(VectorEnv[Any, NDArray[np.float32], NDArray[Any]]):
 def _like(mask: Flags, values: NDArray[Any]) -> Flags:
     """The mask with as many axes as some values."""
     return mask if values.ndim == 1 else mask[:, None]
-
-
-def _merged(
-    told: dict[str, NDArray[Any]], fresh: dict[str, NDArray[Any]], mask: Flags
-) -> dict[str, NDArray[Any]]:
-    """What was told, with fresh rows where the mask says so."""
-    return {
-        name: np.where(_like(mask, values), fresh[name], values) for name, values in told.items()
-    }

@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 from llvmlite import ir
 from numba import types
-from numba.core import cgutils
 from numba.experimental.structref import _Utils
 from numba.extending import intrinsic
 
@@ -30,10 +29,10 @@ target and the gap there, nan where no voxel holds it, and the branch that the t
 class Orders(NamedTuple):
     """What n bodies are to do, and what came of it.
 
-    places [n] addresses of the bodies' parts; counts [n] steps of each, -1 to leave one alone; feed, twist [n, k], inputs
-    [n, k, m], time_step, damping [n] of their drives; patch [n], turn [n, 2] as in ``glance``;
-    done, status [n] as ``march`` returns them; seen [n, SEEN]; guide [n, 2] and held [n, m]: where
-    guide and inputs are in the end; next [1]: whose turn it is.
+    places [n] addresses of the bodies' parts; counts [n] steps of each, -1 to leave one alone;
+    feed, twist [n, k], inputs [n, k, m], time_step, damping [n] of their drives; patch [n], turn
+    [n, 2] as in ``glance``; done, status [n] as ``march`` returns them; seen [n, SEEN]; guide
+    [n, 2] and held [n, m]: where guide and inputs are in the end; next [1]: whose turn it is.
     """
 
     places: Index
