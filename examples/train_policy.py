@@ -37,9 +37,9 @@ Array = NDArray[np.float64]
 class Search:
     """How to search: directions in an iteration, how many of them count, size of a change, step."""
 
-    iterations: int = 30
-    directions: int = 12
-    best: int = 6
+    iterations: int = 15
+    directions: int = 8
+    best: int = 4
     change: float = 0.1
     step: float = 0.1
 

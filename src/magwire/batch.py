@@ -282,7 +282,7 @@ class Batch:
     def _carry_out(self) -> None:
         orders, body = self._orders, self._plants[0].body
         orders.next[0] = 0
-        hands = min(self.threads, np.count_nonzero(orders.counts >= 0))
+        hands = min(self.threads, int(np.count_nonzero(orders.counts >= 0)))
         busy = [self._pool.submit(carry_out, body, orders, self._inertia) for _ in range(hands - 1)]
         try:
             carry_out(body, orders, self._inertia)

@@ -163,7 +163,7 @@ def test_what_does_not_fit_is_refused(simulations: list[Simulation]) -> None:
         batch.advance([Command()])
     with pytest.raises(InputError, match="must be finite"):
         batch.step(np.nan)
-    with pytest.raises(InputError, match="duration of Batch.step must be positive"):
+    with pytest.raises(InputError, match=r"duration of Batch\.step must be positive"):
         batch.step(duration=0.0)
     magnet = Dipole((0.1, 0.0, 0.3), (0.0, 0.0, 10.0))
     near = Simulation(wire(60), Lumen.straight(0.1, 3e-3), field=magnet)

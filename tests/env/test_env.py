@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import gymnasium
@@ -88,19 +89,20 @@ def test_forces_are_those_of_a_replayed_session() -> None:
 def test_the_reward_is_what_the_documentation_says() -> None:
     env = WireEnv(force_limit=1e-5, **SHORT)
     told = play(env, 2, 30)
-    for (_, _, before), (_, reward, info) in zip(told, told[1:], strict=False):
-        expected = 10.0 * (info["progress"] - before["progress"]) - 1.0 / env.task.actions
-        expected -= 0.05 * min(info["max_wall_force"] / 1e-5, 10.0)
+    for (_, _, before), (_, reward, info) in itertools.pairwise(told):
+        gained = min(info["progress"], 1.0) - before["progress"]
+        expected = 10.0 * gained - 0.2 / env.task.actions
+        expected -= 0.05 * min(info["tip_force"] / 1e-5, 10.0)
         assert reward == pytest.approx(expected + info["success"], abs=1e-12)
 
 
 def test_a_wire_that_arrives_ends_its_episode() -> None:
     env = WireEnv(goal=0.2, **SHORT)
     env.reset(seed=0)
-    for count in range(1, 60):
+    count, terminated = 0, False
+    while not terminated and count < 60:
         _, reward, terminated, truncated, info = env.step(np.array([1, 0, 0, 0, 0], np.float32))
-        if terminated:
-            break
+        count += 1
     assert info["success"]
     assert not truncated
     assert reward > 1.0
@@ -134,10 +136,8 @@ def test_observations_come_late_and_not_every_time() -> None:
 
 def test_noise_is_as_large_as_it_is_said_to_be() -> None:
     env = WireEnv(noise=2e-4, **SHORT)
-    still = []
     env.reset(seed=0, options={"feed": 0.02})
-    for _ in range(300):
-        still.append(env.step(np.zeros(5, np.float32))[0])
+    still = [env.step(np.zeros(5, np.float32))[0] for _ in range(300)]
     off = np.array(still)[50:, :2] * 3e-3  # in radii of the lumen
     assert np.std(off, axis=0) == pytest.approx([2e-4, 2e-4], rel=0.2)
 

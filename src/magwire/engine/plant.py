@@ -132,7 +132,8 @@ class Plant:
     @property
     def body(self) -> Body:
         """The wire as compiled code refers to it."""
-        return self._body
+        body: Body = self._body
+        return body
 
     @property
     def feed(self) -> float:

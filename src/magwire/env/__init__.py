@@ -9,11 +9,21 @@ from pathlib import Path
 from typing import Any
 
 from magwire.env.ids import TASKS, names, register
+from magwire.env.sb3 import to_sb3
 from magwire.env.task import Task
 from magwire.env.vector_env import WireVectorEnv
 from magwire.env.wire_env import WireEnv
 
-__all__ = ["TASKS", "Task", "WireEnv", "WireVectorEnv", "from_scenario", "names", "register"]
+__all__ = [
+    "TASKS",
+    "Task",
+    "WireEnv",
+    "WireVectorEnv",
+    "from_scenario",
+    "names",
+    "register",
+    "to_sb3",
+]
 
 register()
 

@@ -20,7 +20,7 @@ from magwire.simulation import Simulation
 Array = NDArray[np.float64]
 
 ROWS = 512
-"""Of the table of a path; its columns are centre (3), radius, tangent (3) and two normals (3, 3)."""
+"""Of the table of a path; columns: centre (3), radius, tangent (3) and two normals (3, 3)."""
 _QUANTITY = re.compile(r"\s*([-+0-9.eE]+)\s*(.*)")
 
 

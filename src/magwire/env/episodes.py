@@ -12,9 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from magwire.batch import Batch, Sight
+from magwire.batch import Batch, Sight, start_of
 from magwire.engine.plant import Plant
-from magwire.batch import start_of
 from magwire.env import anatomy
 from magwire.env.anatomy import ROWS, Anatomy
 from magwire.env.picture import SMALL, View
@@ -27,7 +26,7 @@ Seen = dict[str, NDArray[Any]]
 
 BOUND = 10.0
 """No observed number is larger; those of a wire in its lumen are around one."""
-PROGRESS, SUCCESS, HASTE, PRESSURE, HARDEST = 10.0, 1.0, 1.0, 0.05, 10.0
+PROGRESS, SUCCESS, HASTE, PRESSURE, HARDEST = 10.0, 1.0, 0.2, 0.05, 10.0
 """Weights of the reward; see ``Episodes.act``."""
 
 
@@ -119,9 +118,9 @@ class Episodes:
         """Carry out an action for each wire, or for some of them.
 
         The reward of an action is 10 times the share of the way to the goal that the tip has gained
-        (lost, if negative), and 1 for reaching the goal; less 1 over the number of actions that an
-        episode may have; less 0.05 times the largest wall force over a patch, in units of the
-        limit, of which no more than 10 count.
+        (lost, if negative; nothing past the goal), and 1 for reaching the goal; less 0.2 over the
+        number of actions that an episode may have; less 0.05 times the wall's force on the tip, in
+        units of the limit, of which no more than 10 count. Forces elsewhere are in the cost alone.
         """
         task, whole = self.task, self.task.action_time
         only = np.ones(len(self._rows), dtype=bool) if only is None else only
@@ -139,8 +138,9 @@ class Episodes:
         moved = np.flatnonzero(only)
         self._remember(self._look(moved), only)
         failed = ended != 0
-        force = self.info["max_wall_force"]
-        gained = np.where(only, (self._arc - before) / self._goal, 0.0)
+        force = self.info["tip_force"]
+        now = np.minimum(self._arc, self._goal)
+        gained = np.where(only, (now - before) / self._goal, 0.0)
         self.terminated = np.where(only, self._arc >= self._goal, self.terminated)
         self.truncated = np.where(
             only, (failed | (self._taken >= task.actions)) & ~self.terminated, self.truncated

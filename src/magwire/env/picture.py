@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -48,7 +50,7 @@ class View:
         place = (flat - self._corner) / self._extent
         return np.column_stack([0.5 + place[:, 0], 0.5 - place[:, 1]]) * size
 
-    def _discs(self, image: NDArray[np.generic], flat: Array, radii: Array, ink: object) -> None:
+    def _discs(self, image: NDArray[np.generic], flat: Array, radii: Array, ink: Any) -> None:
         """Fill discs of radii [pixels] around projected points."""
         size = image.shape[0]
         for (x, y), radius in zip(self.pixels(flat, size), radii, strict=True):

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from magwire.env.episodes import Episodes
 from magwire.env.spaces import action_space, observation, observation_space
 from magwire.env.task import Task
-from magwire.env.wire_env import FRAMES_PER_SECOND, picture, row_of
+from magwire.env.wire_env import FRAMES_PER_SECOND, picture
 from magwire.errors import InputError, one_of, whole
 
 Flags = NDArray[np.bool_]
@@ -160,10 +160,6 @@ class WireVectorEnv(VectorEnv[Any, NDArray[np.float32], NDArray[Any]]):
     def _info(self, mask: Flags) -> dict[str, Any]:
         told = self.episodes.info
         return {**told, **{f"_{name}": mask for name in told}}
-
-    def rows(self) -> list[dict[str, Any]]:
-        """What was last told of each wire."""
-        return [row_of(self.episodes.info, i) for i in range(self.num_envs)]
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """A picture of each wire in its lumen, shape (400, 400, 3)."""

@@ -55,9 +55,10 @@ class WireEnv(gymnasium.Env[Any, NDArray[np.float32]]):
     ``Box(0, 255, (84, 84, 1), uint8)``. ``noise``, ``delay`` and ``observe_every`` make it worse.
 
     ## Rewards
-    10 times the share of the way that the tip has gained, or lost, in the action; 1 on arrival;
-    less 1 over the number of actions that an episode may have; less 0.05 times the largest wall
-    force over a patch of 5 mm, in units of ``force_limit``, of which no more than 10 count.
+    10 times the share of the way that the tip has gained, or lost, in the action, up to the goal; 1
+    on arrival; less 0.2 over the number of actions that an episode may have; less 0.05 times the
+    wall's force on the tip, in units of ``force_limit``, of which no more than 10 count. Forces on
+    the rest of the wire are in ``info["cost"]``, for those who learn under constraints.
 
     ## Starting State
     The wire rests at one of the feeds ``starts``. With ``randomise`` the models are drawn anew.
@@ -82,7 +83,7 @@ class WireEnv(gymnasium.Env[Any, NDArray[np.float32]]):
     * v0: first release; rewards and observations may change until magwire 1.0, with a new version.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {
+    metadata: ClassVar[dict[str, Any]] = {  # type: ignore[misc]
         "render_modes": ["rgb_array"],
         "render_fps": FRAMES_PER_SECOND,
     }
@@ -93,7 +94,7 @@ class WireEnv(gymnasium.Env[Any, NDArray[np.float32]]):
         self.render_mode = render_mode
         self.task = Task(**task)
         self.episodes = Episodes(self.task, 1, threads=1)
-        self.action_space = action_space(self.episodes.inputs)
+        self.action_space: Any = action_space(self.episodes.inputs)
         self.observation_space = observation_space(self.task, self.episodes.inputs)
 
     def reset(
@@ -120,7 +121,7 @@ class WireEnv(gymnasium.Env[Any, NDArray[np.float32]]):
         ended = bool(now.terminated[0]), bool(now.truncated[0])
         return self._observation(), float(now.reward[0]), *ended, self._info()
 
-    def render(self) -> NDArray[np.uint8] | None:  # type: ignore[override]
+    def render(self) -> NDArray[np.uint8] | None:
         """A picture of wire and lumen, shape (400, 400, 3); none without a ``render_mode``."""
         return None if self.render_mode is None else picture(self.episodes, 0)
 
