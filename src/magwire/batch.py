@@ -235,7 +235,7 @@ class Batch:
         InputError
             If a value is not finite, or a duration is not positive.
         """
-        orders, n = self._orders, len(self)
+        orders = self._orders
         speed = np.asarray(feed_speed, dtype=np.float64)
         rate = np.asarray(twist_rate, dtype=np.float64)
         wanted = orders.held if inputs is None else np.asarray(inputs, dtype=np.float64)
@@ -259,11 +259,10 @@ class Batch:
             feed = np.minimum(np.maximum(feed + speed * each, 0.0), limit)
             twist = twist + rate * each
             orders.feed[:, k], orders.twist[:, k] = feed / limit, twist
-            share = np.broadcast_to((k + 1) / counts, (n,))
-            orders.inputs[:, k] = orders.held + change * share[:, None]
+            share = np.reshape((k + 1) / counts, (-1, 1))
             # A linear course ends where it was told to, not within rounding of it.
-            last = np.broadcast_to(counts == k + 1, (n,))
-            orders.inputs[last, k] = np.broadcast_to(wanted, orders.held.shape)[last]
+            course = orders.held + change * share
+            orders.inputs[:, k] = np.where(share == 1.0, wanted, course)
         self._carry_out()
         self._time += orders.done * each
         return orders.status.copy()
@@ -287,7 +286,8 @@ class Batch:
         try:
             carry_out(body, orders, self._inertia)
         finally:
-            wait(busy)
+            if busy:
+                wait(busy)
         for thread in busy:
             thread.result()
 

@@ -24,6 +24,7 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Seen = dict[str, NDArray[Any]]
 
+_AHEAD, _PLACES = np.array(AHEAD)[:, None], np.array((0.0, *AHEAD))
 BOUND = 10.0
 """No observed number is larger; those of a wire in its lumen are around one."""
 PROGRESS, SUCCESS, HASTE, PRESSURE, HARDEST = 10.0, 1.0, 0.2, 0.05, 10.0
@@ -124,10 +125,11 @@ class Episodes:
         """
         task, whole = self.task, self.task.action_time
         only = np.ones(len(self._rows), dtype=bool) if only is None else only
-        action = np.clip(np.asarray(actions, dtype=np.float64), -1.0, 1.0)
+        action = np.minimum(np.maximum(np.asarray(actions, dtype=np.float64), -1.0), 1.0)
         wanted = self._wanted(action[:, 2:])
         most = task.input_rate * whole
-        asked = self._asked + np.clip(wanted - self._asked, -most, most)
+        change = np.minimum(np.maximum(wanted - self._asked, -most), most)
+        asked = self._asked + change
         self._asked = np.where(only[:, None], asked, self._asked)
         speed, rate = action[:, 0] * task.feed_speed, action[:, 1] * task.twist_rate
         applied = self._asked * self._gain
@@ -149,13 +151,15 @@ class Episodes:
         reward = PROGRESS * gained + SUCCESS * self.terminated - HASTE / task.actions
         self.reward = np.where(only, reward - PRESSURE * pressed, 0.0)
         self.info["unconverged"][moved] = failed[moved]
-        self.info["command"][moved] = np.column_stack([speed, rate, applied])[moved]
+        command = self.info["command"]
+        command[moved, 0], command[moved, 1] = speed[moved], rate[moved]
+        command[moved, 2:] = applied[moved]
 
     def _wanted(self, share: Array) -> Array:
         """Inputs that actions ask for, shape (n, m)."""
         if self.task.axes == "world":
             return share * self.task.input_limit
-        size = np.sqrt(dot(share, share))
+        size = np.sqrt(share[:, 0] ** 2 + share[:, 1] ** 2 + share[:, 2] ** 2)
         share = share * (self.task.input_limit / np.maximum(size, 1.0))[:, None]
         frame = self._frame
         turned = share[:, 0:1] * frame[:, 0] + share[:, 1:2] * frame[:, 1]
@@ -166,7 +170,7 @@ class Episodes:
         share = inputs / self.task.input_limit
         if self.task.axes == "world":
             return share
-        return np.column_stack([dot(share, self._frame[:, c]) for c in range(3)])
+        return along(share[:, None], self._frame)[:, 0]
 
     def _look(self, fresh: NDArray[np.int64]) -> Seen:
         """What is observed of all wires; those in ``fresh`` have changed."""
@@ -179,8 +183,7 @@ class Episodes:
                 tip[i] += self.task.noise * self._chance[i].standard_normal(3)
         rows = self._along(self._arc)
         self._frame = rows[:, 0, 4:].reshape(-1, 3, 3)
-        numbers = np.clip(self._numbers(sight, tip, rows), -BOUND, BOUND)
-        seen: Seen = {"vector": numbers.astype(np.float32)}
+        seen: Seen = {"vector": self._numbers(sight, tip, rows).astype(np.float32)}
         if self.task.image:
             seen["image"] = self._images(fresh)
         self._tell(sight, fresh)
@@ -207,7 +210,7 @@ class Episodes:
 
     def _along(self, arc: Array) -> Array:
         """Rows of the paths' tables at the tip and ahead of it, shape (n, 1 + ahead, 13)."""
-        ahead = arc[:, None] + np.array((0.0, *AHEAD))
+        ahead = arc[:, None] + _PLACES
         place = np.minimum(ahead / self._spacing[:, None], ROWS - 1.000001)
         row = place.astype(np.int64)
         share = (place - row)[:, :, None]
@@ -217,25 +220,25 @@ class Episodes:
 
     def _numbers(self, sight: Sight, tip: Array, rows: Array) -> Array:
         """What is observed, shape (n, length of an observation)."""
+        task, n, m = self.task, len(self._rows), self.inputs
         here, radius = rows[:, 0, :3], rows[:, 0, 3]
-        off = tip - here
-        columns = [dot(off, axis) / radius for axis in (rows[:, 0, 7:10], rows[:, 0, 10:13])]
-        columns += [dot(sight.tip_direction, self._frame[:, c]) for c in range(3)]
-        columns += [self._arc / self._goal, sight.feed / self._goal]
-        columns += [np.sin(sight.twist), np.cos(sight.twist)]
-        columns += list((self._shown_inputs() / self.task.input_limit).T)
-        columns += list(self._last.T)
-        for k, ahead in enumerate(AHEAD, start=1):
-            way = rows[:, k, :3] - here
-            columns += [dot(way, self._frame[:, c]) / ahead for c in range(3)]
-            columns.append(rows[:, k, 3] / radius)
-        return np.column_stack(columns)
-
-    def _shown_inputs(self) -> Array:
-        """The inputs that were asked for, along the axes of actions."""
-        if self.task.axes == "world":
-            return self._asked
-        return np.column_stack([dot(self._asked, self._frame[:, c]) for c in range(3)])
+        vectors = np.empty((n, 3 + len(AHEAD), 3))
+        vectors[:, 0], vectors[:, 1] = tip - here, sight.tip_direction
+        vectors[:, 2] = self._asked if task.axes == "path" else 0.0
+        vectors[:, 3:] = (rows[:, 1:, :3] - here[:, None]) / _AHEAD
+        turned = along(vectors, self._frame)
+        numbers = np.empty((n, observed(m)))
+        numbers[:, :2] = turned[:, 0, 1:] / radius[:, None]
+        numbers[:, 2:5] = turned[:, 1]
+        numbers[:, 5], numbers[:, 6] = self._arc / self._goal, sight.feed / self._goal
+        numbers[:, 7], numbers[:, 8] = np.sin(sight.twist), np.cos(sight.twist)
+        shown = turned[:, 2] if task.axes == "path" else self._asked
+        numbers[:, 9 : 9 + m] = shown / task.input_limit
+        numbers[:, 9 + m : 11 + 2 * m] = self._last
+        way = numbers[:, 11 + 2 * m :].reshape(n, len(AHEAD), 4)
+        way[:, :, :3], way[:, :, 3] = turned[:, 3:], rows[:, 1:, 3] / radius[:, None]
+        numbers[:, 11 + 2 * m :] = way.reshape(n, -1)
+        return np.minimum(np.maximum(numbers, -BOUND), BOUND)
 
     def _remember(self, seen: Seen, moved: Flags) -> None:
         """Keep what is seen, and show what is due: late, and not after every action."""
@@ -283,9 +286,13 @@ class Episodes:
         return self._copy(self._shown)
 
 
-def dot(a: Array, b: Array) -> Array:
-    """Products of rows, shape (n,), summed in the same order for any number of rows."""
-    return np.asarray(a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1] + a[:, 2] * b[:, 2])
+def along(vectors: Array, frames: Array) -> Array:
+    """Components of vectors, shape (n, k, 3), along the rows of frames, shape (n, 3, 3).
+
+    They are summed in the same order for any number of rows.
+    """
+    parts = vectors[:, :, None] * frames[:, None]
+    return np.asarray(parts[..., 0] + parts[..., 1] + parts[..., 2])
 
 
 def observed(inputs: int) -> int:
