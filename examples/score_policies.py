@@ -57,6 +57,17 @@ def scores(name: str, weights: NDArray[np.float64], episodes: int) -> dict[str, 
     return {"first_seed": FIRST, "episodes": episodes, "policies": found}
 
 
+def table(kept: dict[str, Any]) -> str:
+    """The scores as a table of Markdown."""
+    kinds = ("stand still", "retract", "random", "trained", "navigator")
+    lines = ["| task | " + " | ".join(kinds) + " |", "| --- " * (1 + len(kinds)) + "|"]
+    for name, found in kept.items():
+        policies = [found["policies"][kind] for kind in kinds]
+        cells = [f"{one['mean']:.2f} ± {one['half_interval']:.2f}" for one in policies]
+        lines.append("| " + " | ".join([name, *cells]) + " |")
+    return "\n".join(lines) + "\n"
+
+
 def main() -> None:
     """Score as the command line says."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[4])
@@ -70,6 +81,7 @@ def main() -> None:
     weights = np.load(chosen.weights)["weights"]
     kept[chosen.name] = scores(chosen.name, weights, chosen.episodes)
     chosen.out.write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
+    print(table(kept))
 
 
 if __name__ == "__main__":

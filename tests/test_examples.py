@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import runpy
 from collections.abc import Callable
 from pathlib import Path
@@ -59,6 +60,14 @@ def score_policies(names: Names) -> None:
     found = names["scores"]("HalfCircle", with_push, 2)["policies"]
     returns = [found[kind]["mean"] for kind in ("stand still", "trained", "navigator")]
     assert returns == sorted(returns)
+    docs = EXAMPLES.parent / "docs"
+    kept = json.loads((docs / "_static" / "scores.json").read_text(encoding="utf-8"))
+    page = (docs / "learning.md").read_text(encoding="utf-8")
+    assert names["table"](kept) in page
+    for one in kept.values():
+        means = {kind: policy["mean"] for kind, policy in one["policies"].items()}
+        idle = max(means[kind] for kind in ("stand still", "retract", "random"))
+        assert idle < means["trained"] < means["navigator"]
 
 
 CHECKS: dict[str, Callable[[Names], None]] = {

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from magwire.batch import Batch as Batch
     from magwire.contact import Barrier as Barrier
+    from magwire.engine.command import Command as Command
     from magwire.engine.feed import Feed as Feed
     from magwire.engine.hold import Hold as Hold
     from magwire.engine.statics import Equilibrium as Equilibrium
@@ -47,6 +48,7 @@ if TYPE_CHECKING:
 _HOMES: dict[str, tuple[str, str]] = {
     "Barrier": ("magwire.contact", "Barrier"),
     "Batch": ("magwire.batch", "Batch"),
+    "Command": ("magwire.engine.command", "Command"),
     "ConvergenceError": ("magwire.errors", "ConvergenceError"),
     "Demands": ("magwire.navigate.demands", "Demands"),
     "Equilibrium": ("magwire.engine.statics", "Equilibrium"),
@@ -81,6 +83,7 @@ _HOMES: dict[str, tuple[str, str]] = {
 __all__ = [
     "Barrier",
     "Batch",
+    "Command",
     "ConvergenceError",
     "Demands",
     "Equilibrium",
