@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import runpy
 from collections.abc import Callable
 from pathlib import Path
@@ -44,12 +45,39 @@ def coronary_tree(names: Names) -> None:
     assert names["result"].smallest_clearance > 0.0
 
 
+def train_policy(names: Names) -> None:
+    told: list[str] = []
+    search = names["Search"](iterations=2, directions=2, best=1)
+    weights = names["train"]("Branch", search, 0, told.append)
+    assert weights.shape == (5, 34)
+    assert len(told) == 2
+    assert np.all(weights[:, :-1] != 0.0)  # it has gone somewhere
+
+
+def score_policies(names: Names) -> None:
+    with_push = np.zeros((5, 34))
+    with_push[0, -1] = 1.0
+    found = names["scores"]("HalfCircle", with_push, 2)["policies"]
+    returns = [found[kind]["mean"] for kind in ("stand still", "trained", "navigator")]
+    assert returns == sorted(returns)
+    docs = EXAMPLES.parent / "docs"
+    kept = json.loads((docs / "_static" / "scores.json").read_text(encoding="utf-8"))
+    page = (docs / "learning.md").read_text(encoding="utf-8")
+    assert names["table"](kept) in page
+    for one in kept.values():
+        means = {kind: policy["mean"] for kind, policy in one["policies"].items()}
+        idle = max(means[kind] for kind in ("stand still", "retract", "random"))
+        assert idle < means["trained"] < means["navigator"]
+
+
 CHECKS: dict[str, Callable[[Names], None]] = {
     "plot_magnetic_cantilever": magnetic_cantilever,
     "plot_antiparallel_buckling": antiparallel_buckling,
     "plot_half_circle": half_circle,
     "plot_own_wire": own_wire,
     "plot_coronary_tree": coronary_tree,
+    "score_policies": score_policies,
+    "train_policy": train_policy,
 }
 
 

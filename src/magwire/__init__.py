@@ -10,6 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from magwire.batch import Batch as Batch
     from magwire.contact import Barrier as Barrier
     from magwire.contact import Friction as Friction
     from magwire.devices import Device as Device
@@ -64,6 +65,7 @@ if TYPE_CHECKING:
 _HOMES: dict[str, tuple[str, str]] = {
     "Allocated": ("magwire.navigate.allocation", "Allocated"),
     "Barrier": ("magwire.contact", "Barrier"),
+    "Batch": ("magwire.batch", "Batch"),
     "Command": ("magwire.engine.command", "Command"),
     "ConvergenceError": ("magwire.errors", "ConvergenceError"),
     "Demands": ("magwire.navigate.demands", "Demands"),
@@ -102,9 +104,9 @@ _HOMES: dict[str, tuple[str, str]] = {
     "UniformField": ("magwire.field", "UniformField"),
     "Vessel": ("magwire.vessel", "Vessel"),
     "Wire": ("magwire.wire", "Wire"),
-    "device_names": ("magwire.devices", "names"),
     "across": ("magwire.wire", "across"),
     "axial": ("magwire.wire", "axial"),
+    "device_names": ("magwire.devices", "names"),
     "load_device": ("magwire.devices", "load"),
     "load_scenario": ("magwire.scenario", "load"),
     "plan": ("magwire.planning", "plan"),
@@ -115,6 +117,7 @@ _HOMES: dict[str, tuple[str, str]] = {
 __all__ = [
     "Allocated",
     "Barrier",
+    "Batch",
     "Command",
     "ConvergenceError",
     "Demands",

@@ -162,7 +162,8 @@ class Session:
             for k in range(1, count + 1):
                 feed = min(max(feed + command.feed_speed * each, 0.0), self._length)
                 twist += command.twist_rate * each
-                rows.append((feed, twist, inputs + (wanted - inputs) * (k / count)))
+                course = inputs + (wanted - inputs) * (k / count)
+                rows.append((feed, twist, wanted if k == count else course))
             inputs = wanted
         if rows:
             self._do(self._drive(rows, step))

@@ -19,7 +19,7 @@ from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.field import FieldSource
 from magwire.kernels.arrays import Field, Mouth, State, Tube
-from magwire.kernels.body import Parts, advance, look, make_body, rest, survey
+from magwire.kernels.body import Body, Parts, advance, look, make_body, rest, survey
 from magwire.kernels.glance import GLANCE
 from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.history import copy_state
@@ -133,6 +133,12 @@ class Plant:
         none = np.zeros(0)
         self.march(none, none, np.zeros((0, len(self.inputs))), 1.0, inertia=True)  # compiles
         self._began = time.perf_counter()
+
+    @property
+    def body(self) -> Body:
+        """The wire as compiled code refers to it."""
+        body: Body = self._body
+        return body
 
     @property
     def feed(self) -> float:

@@ -24,6 +24,11 @@ ENGINES_NOTE = (
     "installed."
 )
 
+LEARNING_NOTE = (
+    "Half-circle, 100 nodes, an action is a step of 10 ms; observation and reward included.\n"
+    "MuJoCo: 100 nodes in a channel, steps of 0.07 ms, nothing observed."
+)
+
 # What it is, which start, from which mark to which.
 STARTS = (
     ("import magwire", "import", "python", "magwire"),
@@ -137,6 +142,25 @@ def by_engine(rows: Sequence[Row]) -> Table:
             f"{1e3 * least(samples, 'seconds'):.4f}",
             f"{row['time_step'] / median(samples, 'seconds'):.1f}",
             *(f"{samples[0][name]:.4f}" for name in ("tip_x", "tip_y")),
+        )
+    return made
+
+
+def by_environment(rows: Sequence[Row]) -> Table:
+    """Steps a second of environments."""
+    made = table(
+        "12  Environments: actions of 10 ms a second, in contact",
+        *("", "threads", "actions\n/s", "of best", "Newton\n/step"),
+    )
+    for row in rows:
+        samples = row["samples"]
+        newton = median(samples, "newton")
+        made.add_row(
+            row["what"],
+            f"{row['threads']}",
+            f"{median(samples, 'rate'):.0f}",
+            f"{max(column(samples, 'rate')):.0f}",
+            f"{newton:.2f}" if newton == newton else "",
         )
     return made
 

@@ -79,6 +79,8 @@ def tables(results: dict[str, Any]) -> Iterator[tuple[Table, str]]:
         yield others.by_workers(results["many"]), others.MANY_NOTE
     if results["engines"]:
         yield others.by_engine(results["engines"]), others.ENGINES_NOTE
+    if results.get("learning"):  # samples of older builds have none
+        yield others.by_environment(results["learning"]), others.LEARNING_NOTE
 
 
 def heading(results: dict[str, Any]) -> list[str]:

@@ -28,7 +28,7 @@ def measure(
     """
     import numba
 
-    from magwire.evidence.bench import cases, engines, many, paper, updates
+    from magwire.evidence.bench import cases, engines, learning, many, paper, updates
     from magwire.evidence.bench.machine import load_average, machine
     from magwire.evidence.bench.starts import run_memory, run_starts
 
@@ -49,6 +49,7 @@ def measure(
         [] if quick else many.run_side_by_side(SIDE_BY_SIDE, extent.push, min(few, 2), tell)
     )
     results["engines"] = [] if quick else engines.run_engines(min(few, 2), tell)
+    results["learning"] = [] if quick else learning.run_learning(min(few, 3), tell)
     settings = {
         "repeats": count,
         "push": extent.push,

@@ -1,0 +1,88 @@
+"""
+Score policies
+==============
+
+Mean returns of the baselines and of a trained policy, with 95 percent intervals over 100 seeds.
+
+The seeds are not those of training, nor are the anatomies of ``RandomVessel``. Each task takes a
+file of weights that ``train_policy.py`` has written::
+
+    python examples/score_policies.py HalfCircle --weights half-circle.npz --out scores.json
+
+What is in the file of scores already stays there.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magwire.env import WireVectorEnv, names
+from magwire.env.baselines import Chance, Linear, Navigator, interval, retract, score, still
+from magwire.env.ids import options_of
+
+FIRST = 1_000_000
+"""First of the seeds; training draws its own from a generator of seeds."""
+
+
+def scores(name: str, weights: NDArray[np.float64], episodes: int) -> dict[str, Any]:
+    """Mean, half an interval and the rest of each policy."""
+    policies = {
+        "stand still": still,
+        "retract": retract,
+        "random": Chance(seed=0),
+        "trained": Linear(weights),
+        "navigator": Navigator(),
+    }
+    found = {}
+    options = options_of(name, split="test")
+    for kind, policy in policies.items():
+        env = WireVectorEnv(episodes, autoreset_mode="Disabled", **options)
+        total = score(env, policy, range(FIRST, FIRST + episodes))
+        env.close()
+        mean, half = interval(total["returns"])
+        found[kind] = {
+            "mean": mean,
+            "half_interval": half,
+            "success": float(total["success"].mean()),
+            "cost": float(total["costs"].mean()),
+            "unconverged": int(total["unconverged"].sum()),
+        }
+        print(f"{name}: {kind} {mean:.2f} +- {half:.2f}, success {found[kind]['success']:.2f}")
+    return {"first_seed": FIRST, "episodes": episodes, "policies": found}
+
+
+def table(kept: dict[str, Any]) -> str:
+    """The scores as a table of Markdown."""
+    kinds = ("stand still", "retract", "random", "trained", "navigator")
+    lines = ["| task | " + " | ".join(kinds) + " |", "| --- " * (1 + len(kinds)) + "|"]
+    for name, found in kept.items():
+        policies = [found["policies"][kind] for kind in kinds]
+        cells = [f"{one['mean']:.2f} ± {one['half_interval']:.2f}" for one in policies]
+        lines.append("| " + " | ".join([name, *cells]) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def main() -> None:
+    """Score as the command line says."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[4])
+    known = [name.removeprefix("magwire/").removesuffix("-v0") for name in names()]
+    parser.add_argument("name", choices=known)
+    parser.add_argument("--weights", type=Path, required=True)
+    parser.add_argument("--episodes", type=int, default=100)
+    parser.add_argument("--out", type=Path, required=True)
+    chosen = parser.parse_args()
+    kept = json.loads(chosen.out.read_text(encoding="utf-8")) if chosen.out.exists() else {}
+    weights = np.load(chosen.weights)["weights"]
+    kept[chosen.name] = scores(chosen.name, weights, chosen.episodes)
+    chosen.out.write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
+    print(table(kept))
+
+
+if __name__ == "__main__":
+    main()

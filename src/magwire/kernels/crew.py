@@ -1,0 +1,137 @@
+"""Many bodies in one call: each thread takes one after the other until all are done.
+
+The bodies are given by the addresses of their parts. No reference is counted on the way: two
+threads that count references to the same lumen would wait for each other at every step. Who calls
+keeps the bodies alive.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from llvmlite import ir
+from numba import types
+from numba.experimental.structref import _Utils
+from numba.extending import intrinsic
+
+from magwire.kernels._jit import entry, kernel
+from magwire.kernels.arrays import Array, Index
+from magwire.kernels.glance import GLANCE, glance
+from magwire.kernels.march import Drive, march
+from magwire.kernels.vectors import row
+from magwire.kernels.wall.gap import gap_value
+
+SEEN = GLANCE + 3
+"""Numbers that are seen of a wire: a glance, then the arc parameter of the tip on the way to the
+target and the gap there, nan where no voxel holds it, and the branch that the tip is in."""
+
+
+class Orders(NamedTuple):
+    """What n bodies are to do, and what came of it.
+
+    places [n] addresses of the bodies' parts; counts [n] steps of each, -1 to leave one alone;
+    feed, twist [n, k], inputs [n, k, m], time_step, damping [n] of their drives; patch [n], turn
+    [n, 2] as in ``glance``; done, status [n] as ``march`` returns them; seen [n, SEEN]; guide
+    [n, 2] and held [n, m]: where guide and inputs are in the end; next [1]: whose turn it is.
+    """
+
+    places: Index
+    counts: Index
+    feed: Array
+    twist: Array
+    inputs: Array
+    time_step: Array
+    damping: Array
+    patch: Array
+    turn: Array
+    done: Index
+    status: Index
+    seen: Array
+    guide: Array
+    held: Array
+    next: Index
+
+
+@intrinsic
+def address(context, body):
+    """Where the parts of a body are in memory."""
+
+    def codegen(context, builder, signature, args):
+        pointer = _Utils(context, builder, signature.args[0]).get_data_struct(args[0])
+        return builder.ptrtoint(pointer._get_ptr_by_name("parts"), ir.IntType(64))
+
+    return types.int64(body), codegen
+
+
+@intrinsic
+def parts_at(context, place, like):
+    """The parts at an address, which must be of the type of ``like``."""
+
+    def codegen(context, builder, signature, args):
+        stored = context.get_value_type(signature.return_type)
+        return builder.load(builder.inttoptr(args[0], stored.as_pointer()))
+
+    return like(place, like), codegen
+
+
+@intrinsic
+def take_number(context, counter):
+    """The number in counter[0], which is one more for whoever asks next, in whichever thread."""
+
+    def codegen(context, builder, signature, args):
+        values = context.make_array(signature.args[0])(context, builder, args[0])
+        one = ir.Constant(ir.IntType(64), 1)
+        return builder.atomic_rmw("add", values.data, one, "monotonic")
+
+    return types.int64(counter), codegen
+
+
+@kernel
+def see(parts, patch, turn, seen):
+    """Fill ``seen`` [SEEN] with what is seen of a wire, scaled."""
+    glance(parts.model, parts.state, parts.work, patch, turn, seen)
+    tip = row(parts.state.q, parts.state.q.shape[0] - 1)
+    g, s, _, _ = gap_value(parts.path, tip[0], tip[1], tip[2])
+    seen[GLANCE], seen[GLANCE + 1] = s, g
+    _, _, branch, _ = gap_value(parts.model[3], tip[0], tip[1], tip[2])
+    seen[GLANCE + 2] = branch
+
+
+@kernel
+def work_off(like, orders, inertia):
+    """Carry out orders until none is left; like: the parts of any of the bodies."""
+    while True:
+        i = take_number(orders.next)
+        if i >= orders.places.shape[0]:
+            return
+        count = orders.counts[i]
+        if count < 0:
+            continue
+        p = parts_at(orders.places[i], like)
+        drive = Drive(
+            orders.feed[i, :count],
+            orders.twist[i, :count],
+            orders.inputs[i, :count],
+            orders.time_step[i],
+            orders.damping[i],
+            inertia,
+        )
+        done, status = march(p.model, p.guide, p.state, p.work, p.limits, drive, p.tally)
+        orders.done[i], orders.status[i] = done, status
+        see(p, orders.patch[i], (orders.turn[i, 0], orders.turn[i, 1]), orders.seen[i])
+        for c in range(2):
+            orders.guide[i, c] = p.state.guide[c]
+        for c in range(p.state.inputs.shape[0]):
+            orders.held[i, c] = p.state.inputs[c]
+
+
+@entry
+def address_of(body):
+    """Where the parts of a body are in memory; they stay there as long as it lives."""
+    return address(body)
+
+
+@entry
+def carry_out(body, orders, inertia):
+    """Carry out orders until none is left; any number of threads may do so at once."""
+    work_off(body.parts, orders, inertia)
