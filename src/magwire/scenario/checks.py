@@ -315,6 +315,7 @@ _TABLES = {
     "UniformField": "field",
     "GradientField": "field",
     "Barrier": "contact",
+    "Friction": "contact.friction",
     "Feed": "feed",
     "Demands": "navigate",
     "StableNavigator": "navigate",

@@ -51,7 +51,8 @@ class Job:
         ScenarioError
             If a model refuses what the scenario describes.
         """
-        parts = (scenario.wire, scenario.lumen, scenario.field, scenario.contact, scenario.feed)
+        wall = scenario.contact
+        parts = (scenario.wire, scenario.lumen, scenario.field, wall, wall.friction, scenario.feed)
         faults = [text for part in parts for text in refusals(part.build)]
         if faults:
             raise ScenarioError(faults)
@@ -60,7 +61,8 @@ class Job:
                 scenario.wire.build(),
                 scenario.lumen.build(),
                 field=scenario.field.build(),
-                contact=scenario.contact.build(),
+                contact=wall.build(),
+                friction=wall.friction.build(),
                 damping=scenario.solver.damping,
                 gravity=scenario.environment.gravity,
                 fluid_density=scenario.environment.fluid_density,

@@ -6,9 +6,10 @@ import itertools
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import ConfigDict, Field, model_validator
 
 from magwire.scenario.devices import schema as device_schema
+from magwire.scenario.friction import FrictionTable
 from magwire.scenario.quantity import (
     Acceleration,
     Angle,
@@ -40,6 +41,7 @@ from magwire.scenario.quantity import (
     Whole,
     at_least_one,
 )
+from magwire.scenario.table import Table, preset
 
 if TYPE_CHECKING:
     from magwire.contact import Barrier
@@ -50,17 +52,6 @@ if TYPE_CHECKING:
 NO_FLUX = ["0 mT", "0 mT", "0 mT"]
 NO_MAGNETIZATION = ["0 kA/m", "0 kA/m", "0 kA/m"]
 STRAIGHT = ["0 1/m", "0 1/m"]
-
-
-class Table(BaseModel):
-    """A table of the file: keys it does not know are faults, and it does not change."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True)
-
-
-def preset(text: Any) -> Any:
-    """A default, written as it would be in the file."""
-    return Field(default=text)
 
 
 Nodes = Annotated[int, Whole(4, 100_000)]
@@ -227,6 +218,7 @@ class ContactTable(Table):
     stiffness: Pressure | Literal["auto"] = "auto"
     activation_gap: Length | Literal["auto"] = "auto"
     wall: Literal["surface", "centreline"] = "surface"
+    friction: FrictionTable = Field(default={})  # type: ignore[assignment]
 
     def build(self) -> Barrier:
         """The contact as a model."""

@@ -1,0 +1,147 @@
+"""Wires under friction that tests and campaigns share: ropes, rods at rest, and their energy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from magwire.contact import Barrier, Friction
+from magwire.engine.record import Record
+from magwire.kernels.arrays import Motion
+from magwire.kernels.assembly import assemble
+from magwire.kernels.wall.traction import FACTOR, LOAD, SLIP
+from magwire.lumen import Lumen
+from magwire.session import Session
+from magwire.simulation import Simulation
+from magwire.verify.references.sliding import arc_growth, capstan
+from magwire.wire import Wire
+
+Array = NDArray[np.float64]
+
+THIN = 0.1e-3
+"""Radius of the wires [m]."""
+ROOM = 0.5e-3
+"""What the axis has around the centreline [m]."""
+LEAD = 30e-3
+"""Straight parts before and behind a bend, at least as long as a free end takes [m]."""
+
+
+@dataclass(frozen=True)
+class Bend:
+    """A bend between straight parts; as a helix if it has a pitch.
+
+    Parameters
+    ----------
+    angle
+        Turned around the axis of the bend [rad].
+    drum
+        Radius of the wire's axis where it is pulled taut [m].
+    pitch
+        Rise in one turn [m].
+    """
+
+    angle: float
+    drum: float = 20e-3
+    pitch: float = 0.0
+
+    @property
+    def rise(self) -> float:
+        """Per angle [m]."""
+        return self.pitch / (2.0 * np.pi)
+
+    @property
+    def turned(self) -> float:
+        """The integral of the taut wire's curvature over its length [rad]."""
+        return self.angle * self.drum / float(np.hypot(self.drum, self.rise))
+
+    @property
+    def radius(self) -> float:
+        """Of the taut wire's curvature [m]."""
+        return self.drum * (1.0 + (self.rise / self.drum) ** 2)
+
+    def lumen(self, spacing: float = 0.5e-3) -> Lumen:
+        """The tube; the wire's axis has ``ROOM`` around the centreline."""
+        radius = self.drum + ROOM
+        per = float(np.hypot(radius, self.rise))
+        w = np.linspace(0.0, self.angle, int(self.angle * per / spacing) + 1)
+        arc = np.stack((radius * np.sin(w), radius * (1.0 - np.cos(w)), self.rise * w), axis=1)
+        ends = np.array([self._tangent(0.0), self._tangent(self.angle)])
+        away = np.arange(1, round(LEAD / spacing) + 1)[:, None] * spacing
+        points = np.vstack((-away[::-1] * ends[0], arc, arc[-1] + away * ends[1]))
+        return Lumen.through(points, ROOM + THIN)
+
+    def _tangent(self, w: float) -> Array:
+        radius = self.drum + ROOM
+        tangent = np.array([radius * np.cos(w), radius * np.sin(w), self.rise])
+        return np.asarray(tangent / np.linalg.norm(tangent))
+
+    @property
+    def exit(self) -> Array:
+        """Direction in which it ends."""
+        return self._tangent(self.angle)
+
+
+def rope(
+    bend: Bend, friction: Friction | None, pull: float, edge: float, **options: float | str
+) -> Session:
+    """A steel wire through a bend, pulled at its tip [N] and held by the guide, without anchors."""
+    lumen = bend.lumen()
+    feed = lumen.length - 5e-3
+    length = feed + 12e-3
+    wire = Wire.uniform(length, THIN, 3e9, 1e9, 2000.0, round(length / edge) + 1)
+    load = pull * bend.exit
+    sim = Simulation(wire, lumen, friction=friction, tip_load=load, damping=10.0)
+    return sim.session(feed=feed, **{"motion": "quasi-static", **options})  # type: ignore[arg-type]
+
+
+def rope_pull(
+    bend: Bend,
+    friction: float,
+    pull: float,
+    *,
+    edge: float = 1e-3,
+    travel: float = 3e-3,
+    parts: int = 30,
+    **options: float | str,
+) -> tuple[float, float]:
+    """Pull at the guide [N] at which a rope slides, and that of an elastic rod on a drum."""
+    session = rope(bend, Friction(friction), pull, edge, **options)
+    for _ in range(parts):
+        session.step(feed_speed=-travel / parts / session.time_step)
+    stiffness = session.plant.system.wire.bending_stiffness
+    thin = capstan(pull, bend.turned, friction, bend.radius, stiffness)
+    thick = arc_growth(friction, THIN / bend.drum) - friction
+    return -session.record().push_force, thin * float(np.exp(thick * bend.turned))
+
+
+def in_balance(record: Record, load: Array, direction: Array) -> tuple[float, float]:
+    """What is missing along the guide of the forces on the wire, and the largest of them [N]."""
+    parts = np.array([
+        record.push_force,
+        float(record.contact_force.sum(axis=0) @ direction),
+        float(record.friction_force.sum(axis=0) @ direction),
+        float(load @ direction),
+    ])  # fmt: skip
+    return float(parts.sum()), float(np.abs(parts).max())
+
+
+def energy(session: Session) -> float:
+    """Of the wire, the wall and the elastic slip [J], with that of its motion."""
+    plant, system = session.plant, session.plant.system
+    rod, field, wall, lumen = plant.model
+    state, work = plant.state, system.new_work()
+    smooth = (rod, field, wall._replace(friction=wall.friction._replace(on=False)), lumen)
+    still = Motion(0.0, np.zeros_like(state.q))
+    stored, _ = assemble(smooth, state, plant.mouth, still, work.gradient, work.no_band)
+    free = slice(int(state.held[0]) + 1, None)
+    moving = 0.5 * float(rod.mass[free] @ (state.velocity[free, :3] ** 2).sum(axis=1))
+    turning = slice(int(state.held[0]), None)
+    moving += 0.5 * float(
+        rod.inertia[turning] @ state.velocity[turning, 3][: len(rod.inertia[turning])] ** 2
+    )
+    kept, rubs = state.contact, wall.friction
+    stick = rubs.static * kept[:, FACTOR] * kept[:, LOAD] / rubs.slip
+    slips = 0.5 * float(stick @ (kept[:, SLIP : SLIP + 3] ** 2).sum(axis=1))
+    return (stored + moving + slips) * system.scales.force * system.scales.length
