@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.contact import Barrier, Friction
+from magwire.contact import Friction
 from magwire.engine.record import Record
 from magwire.kernels.arrays import Motion
 from magwire.kernels.assembly import assemble
@@ -102,8 +102,8 @@ def rope_pull(
     pull: float,
     *,
     edge: float = 1e-3,
-    travel: float = 3e-3,
-    parts: int = 30,
+    travel: float = 1e-3,
+    parts: int = 4,
     **options: float | str,
 ) -> tuple[float, float]:
     """Pull at the guide [N] at which a rope slides, and that of an elastic rod on a drum."""
@@ -127,6 +127,57 @@ def in_balance(record: Record, load: Array, direction: Array) -> tuple[float, fl
     return float(parts.sum()), float(np.abs(parts).max())
 
 
+def lying(tilt: float, friction: Friction) -> Simulation:
+    """A limp, heavy wire in a wide tube; gravity leans sideways by an angle, and it cannot roll."""
+    wire = Wire.uniform(50e-3, 0.3e-3, 3e4, 1e9, 3000.0, 26)
+    gravity = 9.81 * np.array([0.0, -np.sin(tilt), -np.cos(tilt)])
+    tube = Lumen.straight(80e-3, 2e-3)
+    return Simulation(wire, tube, friction=friction, gravity=gravity, damping=1000.0)
+
+
+def climbed(tilt: float, friction: Friction, seconds: float, dt: float) -> tuple[Array, float]:
+    """Angles on the tube's wall [rad] of the last nodes of such a wire, and how far it creeps [m].
+
+    It lies down first, then gravity leans for 20 s until it is at rest, then the given time passes.
+    """
+    flat = lying(0.0, friction).session(feed=45e-3)
+    for _ in range(20):
+        flat.step()
+    session = lying(tilt, friction).session(feed=45e-3, time_step=dt)
+    session.restore(flat.snapshot())
+    session.step(duration=20.0)
+    rest = session.record().position
+    session.step(duration=seconds)
+    place = session.record().position
+    angle = np.arctan2(-place[-5:, 1], -place[-5:, 2])
+    return angle, float(np.abs(place - rest).max())
+
+
+@dataclass(frozen=True)
+class Works:
+    """Over a course [J]: of the guide, what friction took, the same summed independently."""
+
+    guide: float
+    taken: float
+    summed: float
+
+
+def works(session: Session, course: Array) -> Works:
+    """The works over a course of feeds and twists of the guide, shape (steps, 2) [m, rad]."""
+    record = session.record()
+    begun, guide, summed = record.friction_work, 0.0, 0.0
+    dt = session.time_step
+    for feed, twist in course:
+        before = record
+        session.step(feed_speed=feed / dt, twist_rate=twist / dt)
+        record = session.record()
+        guide += 0.5 * (before.push_force + record.push_force) * feed
+        guide += 0.5 * (before.guide_torque + record.guide_torque) * twist
+        rubs = np.linalg.norm(record.friction_force, axis=1)
+        summed += float(rubs @ (record.slip - before.slip))
+    return Works(guide, record.friction_work - begun, summed)
+
+
 def energy(session: Session) -> float:
     """Of the wire, the wall and the elastic slip [J], with that of its motion."""
     plant, system = session.plant, session.plant.system
@@ -135,12 +186,9 @@ def energy(session: Session) -> float:
     smooth = (rod, field, wall._replace(friction=wall.friction._replace(on=False)), lumen)
     still = Motion(0.0, np.zeros_like(state.q))
     stored, _ = assemble(smooth, state, plant.mouth, still, work.gradient, work.no_band)
-    free = slice(int(state.held[0]) + 1, None)
-    moving = 0.5 * float(rod.mass[free] @ (state.velocity[free, :3] ** 2).sum(axis=1))
-    turning = slice(int(state.held[0]), None)
-    moving += 0.5 * float(
-        rod.inertia[turning] @ state.velocity[turning, 3][: len(rod.inertia[turning])] ** 2
-    )
+    held = int(state.held[0])
+    moving = 0.5 * float(rod.mass[held + 1 :] @ (state.velocity[held + 1 :, :3] ** 2).sum(axis=1))
+    moving += 0.5 * float(rod.inertia[held:] @ state.velocity[held:-1, 3] ** 2)
     kept, rubs = state.contact, wall.friction
     stick = rubs.static * kept[:, FACTOR] * kept[:, LOAD] / rubs.slip
     slips = 0.5 * float(stick @ (kept[:, SLIP : SLIP + 3] ** 2).sum(axis=1))

@@ -183,7 +183,7 @@ class System:
         """When Newton's method stops in a time step."""
         stiffnesses = [section.bending_stiffness for section in self.wire.sections]
         turn = 1.0 if max(stiffnesses) > UNEVEN * min(stiffnesses) else 0.0
-        # An elastic slip at its cone is not much longer than a last step: with friction, forces say.
+        # An elastic slip at its cone is hardly longer than a last step: with friction, forces say.
         step = 0.0 if self.rubs else LAST_STEP
         return self._limits(TOLERANCE, ITERATIONS)._replace(step=step, turn=turn)
 

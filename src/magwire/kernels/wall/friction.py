@@ -12,8 +12,8 @@ from magwire.kernels._jit import kernel
 from magwire.kernels.blocks import sym_add, sym_identity, sym_outer
 from magwire.kernels.vectors import add, combine, cross, dot, norm, scale, sub
 
-# Conditioning guard, not a material parameter: what slid last is on its cone, but for round-off, and
-# slides on in the tangent. The energy is continuous there to the square of the difference.
+# Conditioning guard, not a material parameter: what slid last is on its cone, but for round-off,
+# and slides on in the tangent. The energy is continuous there to the square of the difference.
 ON_CONE = 1.0 - 1e-9
 
 
