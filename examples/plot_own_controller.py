@@ -60,7 +60,9 @@ for steered, colour in ((False, "tab:grey"), (True, "tab:blue")):
     name = "steered" if steered else "pushed"
     plt.plot(1e3 * feed, 1e3 * tip, color=colour, label=f"{name}: tip")
     plt.plot(1e3 * feed, 1e3 * wall, color=colour, linestyle=":", label=f"{name}: wire")
-    print(f"{name}: at most {1e3 * tip.max():.3f} mN on the tip, {1e3 * wall.max():.3f} on the wire")
+    print(
+        f"{name}: at most {1e3 * tip.max():.3f} mN on the tip, {1e3 * wall.max():.3f} on the wire"
+    )
 
 plt.xlabel("insertion [mm]")
 plt.ylabel("force of the wall [mN]")

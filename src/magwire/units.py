@@ -137,6 +137,12 @@ DIMENSIONS: dict[str, Dimension] = {
     "rate_squared": Dimension(
         "squared rate", "1 1/s^2", {"1/s^2": 1.0, "rad^2/s^2": 1.0, "1/ms^2": 1e6}, ("1/s^2",)
     ),
+    "drag": Dimension(
+        "viscous drag per length",
+        "10 N s/m^2",
+        {"N s/m^2": 1.0, "mN s/m^2": 1e-3, "Pa s": 1.0, "mPa s": 1e-3, "mN s/mm^2": 1e3},
+        ("N s/m^2",),
+    ),
     "twist": Dimension(
         "twist per length",
         "100 rad/m",

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from magwire.evidence.verify.references.dipole import Dipole
 
 from magwire import Barrier, InputError, Lumen, Simulation
 from magwire.batch import Batch
@@ -14,6 +13,7 @@ from magwire.engine.command import Command
 from magwire.engine.plant import Plant
 from magwire.engine.status import Status
 from magwire.engine.system import System
+from magwire.evidence.verify.references.dipole import Dipole
 from magwire.kernels.newton import Limits
 from magwire.scenario import load
 from magwire.wire import Wire

@@ -18,7 +18,7 @@ from kernels.rods import (
 )
 from magwire.contact import Friction
 from magwire.kernels.arrays import Motion, Mouth
-from magwire.kernels.wall.traction import begin, keep, set_load
+from magwire.kernels.wall.traction import keep, recall, set_load
 
 HELD = 2
 
@@ -32,11 +32,13 @@ def rubbing(seed: int, slide: float, *, drag: float = 0.0) -> Case:
     wall, state = where.new_wall(), random_state(rng, where, HELD, 0.1)
     wall = wall._replace(friction=wall.friction._replace(slip=0.01))
     state.held[0] = HELD
-    begin(wall.friction, state, HELD, 0.5)
+    recall(wall.friction, state, HELD)
+    wall.friction.rate[0] = 2.0
+    wall.friction.factor[:] = 1.0
     normals = rng.normal(size=(len(state.q), 3))
     normals /= np.linalg.norm(normals, axis=1)[:, None]
     for i in range(HELD + 1, len(state.q)):
-        set_load(wall.friction, state, i, tuple(normals[i]), rng.uniform(0.5, 2.0))
+        set_load(wall.friction, state, state, i, tuple(normals[i]), rng.uniform(0.5, 2.0))
     wall.friction.slides[:] = rng.uniform(size=len(state.q)) < 0.5
     state.q[:, :] += slide * rng.normal(size=state.q.shape)
     field = random_field(rng, len(rod.rest), uniform=True)
@@ -64,7 +66,7 @@ def test_what_it_takes_is_never_negative(slide: float) -> None:
     _, _, hessian = derivatives(case)
     assert np.linalg.eigvalsh(hessian).min() > -1e-9 * np.abs(hessian).max()
     before = case.state._replace(contact=case.state.contact.copy())
-    keep(case.model[2].friction, before, case.state)
+    keep(case.model[0], case.model[2].friction, before, case.state)
     if slide < 0.01:
         assert before.spent[0] == 0.0
     else:

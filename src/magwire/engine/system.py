@@ -230,7 +230,9 @@ class System:
         """When Newton's method stops in a time step."""
         stiffnesses = [section.bending_stiffness for section in self.wire.sections]
         turn = 1.0 if max(stiffnesses) > UNEVEN * min(stiffnesses) else 0.0
-        return self._limits(TOLERANCE, ITERATIONS)._replace(step=LAST_STEP, turn=turn)
+        # An elastic slip at its cone is hardly longer than a last step: with friction, forces say.
+        step = 0.0 if self.rubs else LAST_STEP
+        return self._limits(TOLERANCE, ITERATIONS)._replace(step=step, turn=turn)
 
     def sharp_limits(self) -> Limits:
         """When Newton's method stops at an equilibrium."""
@@ -306,7 +308,7 @@ class System:
         )
         table = np.array(friction.along, dtype=np.float64).reshape(-1, 2) / (length, 1.0)
         return FrictionArrays(
-            on=self.friction is not None and (bool(np.any(static)) or friction.drag > 0.0),
+            on=self.rubs,
             static=static,
             kinetic=kinetic,
             radius=_ghost(self.mesh.radius) / length,
@@ -323,6 +325,12 @@ class System:
             factor=np.ones(nodes),
             slides=np.zeros(nodes, dtype=np.bool_),
         )
+
+    @property
+    def rubs(self) -> bool:
+        """Whether the wall takes anything of the wire that slides on it."""
+        friction = Friction() if self.friction is None else self.friction
+        return bool(np.any(np.asarray(friction.static) > 0.0)) or friction.drag > 0.0
 
     @cached_property
     def smooth(self) -> System:

@@ -159,7 +159,7 @@ class State(NamedTuple):
     q [N+1, 4] configuration (x, y, z, theta), and what follows from it along its path: tangent
     [N, 3], length [N], director [N, 3] (reference frame d1), twist [N+1] reference twist. velocity
     [N+1, 4]; guide [2] insertion and twist of the guide; held [1] last node that the guide holds;
-    inputs [m] of the actuator; contact [N+1, 9] what friction remembers of each node, its columns
+    inputs [m] of the actuator; contact [N+1, 10] what friction remembers of each node, its columns
     named in ``wall.traction``; spent [1] energy that friction took so far.
     """
 

@@ -131,7 +131,7 @@ def time_step(model, guide, state, work, limits, slides, start, end, dt, drive):
     mouth = Mouth(held, fraction)
     if not wall.friction.on:
         return newton(model, work.ahead, mouth, motion, work, limits)
-    begin(wall.friction, state, held, dt)
+    begin(rod, lumen, wall, state, held, dt, work)
     return rub(model, state, mouth, motion, work, limits)
 
 
@@ -151,11 +151,11 @@ def rub(model, state, mouth, motion, work, limits):
 
 
 @part
-def accept(friction, state, work, dt, end):
+def accept(rod, friction, state, work, dt, end):
     """Take over the step in ``work.ahead``: configuration, velocities, and where the guide is."""
     held = state.held[0]
     if friction.on:
-        keep(friction, state, work.ahead)
+        keep(rod, friction, state, work.ahead)
     for i in range(held, state.q.shape[0]):
         for c in range(4):
             state.velocity[i, c] = (work.ahead.q[i, c] - state.q[i, c]) / dt
@@ -241,7 +241,7 @@ def march(model, guide, state, work, limits, drive, tally):
                     slides = True
                 tally.counts[3] += 1
                 continue
-            accept(model[2].friction, state, work, dt, end)
+            accept(model[0], model[2].friction, state, work, dt, end)
             touches = touches or nearest < inf
             done += share
             if slides and halvings > begun and done % (2.0 * share) == 0.0:

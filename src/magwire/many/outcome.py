@@ -48,6 +48,15 @@ QUANTITIES: dict[str, Quantity] = {
     "max_guide_torque": Quantity(
         "N m", "largest size of the torque at the guide", lambda r: r.max_guide_torque
     ),
+    "max_friction": Quantity(
+        "N",
+        "largest friction of the wall on the wire, summed over it",
+        lambda r: r.largest_friction,
+    ),
+    "friction_work": Quantity("J", "what friction took", lambda r: r.work_of_friction),
+    "largest_twist_lag": Quantity(
+        "rad", "largest difference of the twists of guide and tip", lambda r: r.largest_lag
+    ),
     "tip_contact_free": Quantity(
         "1", "whether the tip never felt the wall", lambda r: r.tip_contact_free
     ),

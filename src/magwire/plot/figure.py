@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from magwire.files import successor
-from magwire.plot import curves, loads, shapes, style
+from magwire.plot import curves, friction, loads, shapes, style
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,7 +26,7 @@ WIDE = 1.8
 COLUMN, AROUND, BELOW = 82.0, 33.0, 46.0
 """Width of a wide lumen, height of what is around it, and of the panel below it [mm]."""
 LOADS = 48.0
-"""Height of the row of forces at the bottom [mm]."""
+"""Height of the row of forces, and of one of friction where there is any [mm]."""
 FORMATS = ("png", "svg")
 
 
@@ -45,19 +45,21 @@ def draw(data: xr.Dataset, passive: xr.Dataset | None = None) -> Figure:
     Figure
         Two columns wide (180 mm): shapes of the wire at several feeds, normalised tip force, field
         components and clearance against normalised push; below, where along the lumen the wall is
-        pressed, and the forces on tip and wire and at the guide.
+        pressed, and the forces on tip and wire and at the guide; where there is friction, a row
+        with what it takes, and with how far the wire slid or the twists of guide and tip.
     """
     with mpl.rc_context(style.RC):
         aspect = shapes.aspect(data)
         top = COLUMN / aspect + AROUND
         height = HEIGHT if aspect < WIDE else max(HEIGHT, top + BELOW)
-        size = (style.WIDTH * style.MM, (height + LOADS) * style.MM)
+        rows = [height, LOADS, *([LOADS] if friction.rubs(data) else [])]
+        size = (style.WIDTH * style.MM, sum(rows) * style.MM)
         figure = Figure(figsize=size, layout="constrained")
         FigureCanvasAgg(figure)
         engine: Any = figure.get_layout_engine()
         engine.set(w_pad=0.03, h_pad=0.03, wspace=0.02, hspace=0.02)
-        halves: Any = figure.subfigures(2, 1, height_ratios=(height, LOADS))
-        above, bottom = halves
+        parts: Any = figure.subfigures(len(rows), 1, height_ratios=rows)
+        above, *below_it = parts
         left, right = above.subfigures(1, 2, width_ratios=(1.12, 1.0))
         if aspect < WIDE:
             shape, (force, field, clearance) = left, right.subplots(3, 1, sharex=True)
@@ -72,8 +74,13 @@ def draw(data: xr.Dataset, passive: xr.Dataset | None = None) -> Figure:
         curves.draw_clearance(clearance, data)
         runs = [data] if passive is None else [data, passive]
         push = np.concatenate([run["normalized_push"].values for run in runs])
-        panels = (force, field, clearance, *_draw_loads(bottom, runs))
-        for letter, panel in zip("bcdefg", panels, strict=False):
+        panels = [force, field, clearance, *_draw_loads(below_it[0], runs)]
+        for row in below_it[1:]:
+            left, right = row.subplots(1, 2)
+            friction.draw_friction(left, data)
+            friction.draw_slip(right, data)
+            panels += [left, right]
+        for letter, panel in zip("bcdefghi", panels, strict=False):
             panel.set_title(
                 rf"$\bf{{{letter}}}$   {panel.get_title(loc='left')}", loc="left", pad=3.0
             )

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 COLUMN = 20
 """Width of the names of the rows."""
+TURNED = 1e-3
+"""Twist of the guide from which on a wire counts as turned [rad]."""
 TORQUE = 1e-5
 """Torque at the guide, over EI/L, that is worth a word: round-off turns a wire in a plane, too."""
 
@@ -40,6 +42,7 @@ def lines(result: Result, *, steered: bool = False, passive: Result | None = Non
         *rows.items(),
         *_forces(result, passive),
         *_wall(result).items(),
+        *_rubbing(result).items(),
         *(_steering(result) if steered else {}).items(),
         *_work(result).items(),
     ]
@@ -125,9 +128,12 @@ def _forces(result: Result, passive: Result | None) -> Iterator[tuple[str, str]]
         ("longest contact", "longest_contact", _short),
         ("peak push at guide", "max_push_force", force),
         ("peak guide torque", "max_guide_torque", torque),
+        ("peak friction", "largest_friction", force),
     ):
         values = [float(getattr(run, attribute)) for run in (result, passive) if run is not None]
         if np.isnan(values).all() or (show_as is torque and max(values) < least):
+            continue
+        if attribute == "largest_friction" and max(values) == 0.0:
             continue
         for label, value in zip((name, "  not steered"), values, strict=False):
             yield label, show_as(value)
@@ -157,6 +163,22 @@ def _wall(result: Result) -> dict[str, str]:
         if first is None
         else f"at a feed of {show(first, 'length')}, push {first / length:.3f}",
     }
+
+
+def _rubbing(result: Result) -> dict[str, str]:
+    """What friction took, and how far the tip turned behind the guide."""
+    rows = {}
+    if result.work_of_friction > 0.0:
+        slid = _short(float(result.slip.max(initial=0.0)))
+        rows["work of friction"] = f"{result.work_of_friction:.4g} J, over up to {slid} of slip"
+    guide = np.abs(result.guide_twist)
+    if guide.size and np.nanmax(guide, initial=0.0) > TURNED:
+        last = np.degrees([result.guide_twist[-1], result.tip_twist[-1]])
+        rows["twist"] = (
+            f"guide {last[0]:.4g} deg, tip {last[1]:.4g} deg at the end; "
+            f"up to {np.degrees(result.largest_lag):.3g} deg apart"
+        )
+    return rows
 
 
 def _steering(result: Result) -> dict[str, str]:

@@ -17,15 +17,22 @@ if TYPE_CHECKING:
 
 WANTED = ("position", "contact_force")
 NEVER_KEPT = ("push_force", "guide_torque")
+NOT_YET = {"friction_force": 0.0, "slip": 0.0, "friction_work": 0.0}
+"""Of versions without friction."""
+LATER = {"guide_twist": np.nan, "tip_twist": np.nan}
 
 
 def completed(dataset: xr.Dataset) -> xr.Dataset:
     """A result with all variables on forces.
 
     Those along the wire follow from the forces on its nodes; those along the lumen, too, if it is a
-    single tube. What the guide did and where the magnet is were not kept: NaN.
+    single tube. What the guide did and where the magnet is were not kept: NaN. There was no
+    friction.
     """
-    if "wall_force" in dataset or not all(name in dataset for name in WANTED):
+    if not all(name in dataset for name in WANTED):
+        return dataset
+    dataset = _filled(dataset)
+    if "wall_force" in dataset:
         return dataset
     layout = Layout(
         length=float(np.asarray(dataset.attrs["length_scale"]).reshape(())),
@@ -47,6 +54,17 @@ def completed(dataset: xr.Dataset) -> xr.Dataset:
         made["arc"] = (("arc",), layout.arc, _notes(CONSTANTS["arc"]))
         made["way"] = (("arc", "xyz"), layout.point(layout.arc)[:, :3], _notes(CONSTANTS["way"]))
     return dataset.assign(made).assign_attrs(force_attributes(layout))
+
+
+def _filled(dataset: xr.Dataset) -> xr.Dataset:
+    """The same with what is the same at all times of a version that did not have it."""
+    made: dict[str, Any] = {}
+    for name, value in (NOT_YET | LATER).items():
+        if name not in dataset:
+            variable = VARIABLES[name]
+            shape = tuple(dataset.sizes[dimension] for dimension in variable.dims)
+            made[name] = (variable.dims, np.full(shape, value), _notes(variable))
+    return dataset.assign(made) if made else dataset
 
 
 def _way(dataset: xr.Dataset) -> Array:

@@ -231,6 +231,22 @@ class Result:
         return float(np.max(np.abs(self.guide_torque), initial=0.0))
 
     @property
+    def largest_friction(self) -> float:
+        """Largest friction of the wall on the wire over all records, sizes summed over it [N]."""
+        sizes = np.linalg.norm(self.friction_force, axis=2).sum(axis=1)
+        return float(np.max(sizes, initial=0.0))
+
+    @property
+    def work_of_friction(self) -> float:
+        """What friction took in all [J]; 0 without friction."""
+        return float(np.max(self.friction_work, initial=0.0))
+
+    @property
+    def largest_lag(self) -> float:
+        """Largest difference of the twists of guide and tip, over all records [rad]."""
+        return float(np.max(np.abs(self.guide_twist - self.tip_twist), initial=0.0))
+
+    @property
     def longest_contact(self) -> float:
         """Largest contact length over all records [m]."""
         return self._largest("contact_length")
@@ -351,6 +367,31 @@ class Result:
         The largest since the record before; NaN where nobody compared.
         """
         return self._array("tip_departure")
+
+    @property
+    def friction_force(self) -> Array:
+        """Force of the wall on the nodes along the wall, shape (t, nodes, 3) [N]; see P-30."""
+        return self._array("friction_force")
+
+    @property
+    def slip(self) -> Array:
+        """How far each node's surface has slid on the wall so far, shape (t, nodes) [m]."""
+        return self._array("slip")
+
+    @property
+    def friction_work(self) -> Array:
+        """What friction has taken so far, shape (t,) [J]."""
+        return self._array("friction_work")
+
+    @property
+    def guide_twist(self) -> Array:
+        """Angle by which the guide has turned the wire about its axis, shape (t,) [rad]."""
+        return self._array("guide_twist")
+
+    @property
+    def tip_twist(self) -> Array:
+        """Angle by which the tip is turned, against an untwisted wire, shape (t,) [rad]."""
+        return self._array("tip_twist")
 
     @property
     def push_force(self) -> Array:

@@ -52,7 +52,9 @@ class Job:
             If a model refuses what the scenario describes.
         """
         tables = ("wire", "lumen", "field", "contact", "feed")
+        wall = scenario.contact
         faults = [text for name in tables for text in refusals(name, getattr(scenario, name).build)]
+        faults += refusals("contact.friction", wall.friction.build)
         if faults:
             raise ScenarioError(faults)
         try:
@@ -60,7 +62,8 @@ class Job:
                 scenario.wire.build(),
                 scenario.lumen.build(),
                 field=scenario.field.build(),
-                contact=scenario.contact.build(),
+                contact=wall.build(),
+                friction=wall.friction.build(),
                 damping=scenario.solver.damping,
                 gravity=scenario.environment.gravity,
                 fluid_density=scenario.environment.fluid_density,

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
+from pydantic import Field
+
+from magwire.scenario.friction import FrictionTable
 from magwire.scenario.quantity import (
     Acceleration,
     DensityOrZero,
@@ -25,6 +28,7 @@ class ContactTable(Table):
     stiffness: Pressure | Literal["auto"] = "auto"
     activation_gap: Length | Literal["auto"] = "auto"
     wall: Literal["surface", "centreline"] = "surface"
+    friction: FrictionTable = Field(default={})  # type: ignore[assignment]
 
     def build(self) -> Barrier:
         """The contact as a model."""

@@ -45,16 +45,18 @@ WHOLE = Extent(
 )
 QUICK = Extent(0.3, (0.01, 0.1), (50, 100), (200, 2_000), (50, 500))
 TREE = "left-branch"
+RUBBING, FRICTION = ("half-circle", "sinusoid", "helix"), 0.1
 
 
 @dataclass(frozen=True)
 class Case:
-    """One march: scenario of the library, dt [s], nodes of the wire, points of the centreline."""
+    """One march: scenario of the library, dt [s], nodes, points of the centreline, friction."""
 
     name: str
     time_step: float = 0.01
     nodes: int = 100
     points: int = 200
+    friction: float = 0.0
 
     def job(self, push: float) -> Job:
         """The scenario without steering, fed to ``push``."""
@@ -64,6 +66,7 @@ class Case:
             f"wire.nodes={self.nodes}",
             f"lumen.points={self.points}",
             f"feed.distance={push * 100.0} mm",
+            f"contact.friction.static={self.friction}",
         )
         return load(self.name, settings).build()
 
@@ -115,6 +118,7 @@ def cases(extent: Extent) -> dict[str, list[Case]]:
         "nodes": [Case("half-circle", nodes=nodes) for nodes in extent.nodes],
         "points": [Case("half-circle", points=points) for points in extent.points],
         "tree": [Case(TREE, points=points) for points in extent.branch_points],
+        "friction": [Case(name, friction=mu) for name in RUBBING for mu in (0.0, FRICTION)],
     }
 
 
@@ -125,7 +129,7 @@ def run_all(extent: Extent, repeats: int, tell: Callable[[str], None]) -> dict[s
         # What is compared with each other comes close together.
         jobs: dict[Hashable, Callable[[], Sample]] = {"no file": partial(record, extent.push, None)}
         jobs["file"] = partial(record, extent.push, Path(name))
-        for table in ("points", "tree", "nodes", "cases"):
+        for table in ("points", "tree", "nodes", "friction", "cases"):
             jobs |= {case: partial(step, case, extent.push) for case in tables[table]}
         tell("warming up")
         warm_up(Path(name))

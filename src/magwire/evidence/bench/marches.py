@@ -15,6 +15,9 @@ CASES_NOTE = (
     "This is the paper's figure of relative compute time against dt: one over x real time."
 )
 POINTS_NOTE = "Set-up: scenario, models, the lumen's grid; once in a run."
+FRICTION_NOTE = (
+    "Ratio: a step with friction over one without. F*: force on the tip node, times L^2/EI."
+)
 TREE_NOTE = "With very few points to a branch the spline through them is another tube."
 
 
@@ -37,6 +40,28 @@ def by_case(rows: Sequence[Row], push: float) -> Table:
             *step_times(samples),
             *counts(samples),
             f"{samples[0]['simulated'] / median(samples, 'seconds'):.0f}",
+            f"{samples[0]['peak']:.2f}",
+        )
+    return made
+
+
+def by_friction(rows: Sequence[Row]) -> Table:
+    """Each case with friction next to the same without."""
+    made = table(
+        "12  Friction: passive, dt = 10 ms",
+        *("case", "mu", "ms/step", "min", "ratio", "ratio\nof min", "Newton\n/step"),
+        *("factor.\n/step", "retries", "peak F*"),
+    )
+    smooth = {row["name"]: row["samples"] for row in rows if row["friction"] == 0.0}
+    for row in rows:
+        samples, without = row["samples"], smooth[row["name"]]
+        ratios = [pick(samples, "seconds") / pick(without, "seconds") for pick in PICKS]
+        made.add_row(
+            row["name"],
+            f"{row['friction']:g}",
+            *step_times(samples),
+            *(f"{ratio:.2f}" for ratio in ratios),
+            *counts(samples),
             f"{samples[0]['peak']:.2f}",
         )
     return made

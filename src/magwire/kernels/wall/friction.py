@@ -12,6 +12,10 @@ from magwire.kernels._jit import kernel
 from magwire.kernels.blocks import sym_add, sym_identity, sym_outer
 from magwire.kernels.vectors import add, combine, cross, dot, norm, scale, sub
 
+# Conditioning guard, not a material parameter: what slid last is on its cone, but for round-off,
+# and slides on in the tangent. The energy is continuous there to the square of the difference.
+ON_CONE = 1.0 - 1e-9
+
 
 @kernel
 def along_wall(n, v):
@@ -69,7 +73,7 @@ def potential(reach, n, cone, stiffness):
         By the surface's displacement; the traction on the wire is minus the gradient.
     """
     far = norm(reach)
-    if stiffness * far <= cone:
+    if stiffness * far < ON_CONE * cone:
         plane = sym_add(sym_identity(stiffness), sym_outer(-stiffness, n))
         return 0.5 * stiffness * far * far, scale(stiffness, reach), plane
     rigid = cone / far

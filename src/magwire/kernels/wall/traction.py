@@ -7,8 +7,6 @@ so that the step minimises a potential. What a node keeps from step to step is i
 
 from __future__ import annotations
 
-from math import sqrt
-
 from magwire.kernels._jit import kernel, part
 from magwire.kernels.blocks import outer, sym_add, sym_identity, sym_outer, sym_pair
 from magwire.kernels.scatter import add_block, add_column, add_diagonal, add_row, add_vector
@@ -26,11 +24,13 @@ from magwire.kernels.wall.friction import (
 )
 from magwire.kernels.wall.gap import gap_value
 
-# Columns of State.contact: elastic slip, the wall's normal, its force, whether the node slides, and
-# how far it has slid.
-SLIP, NORMAL, LOAD, SLIDES, SLID = 0, 3, 6, 7, 8
-CONTACT = 9
-SETTLED = 1e-3  # change of a normal force, over the largest, at which the forces are known (P-31)
+# Columns of State.contact: elastic slip, the wall's normal, its force, whether the node slides, how
+# far it has slid, and the factor of its coefficients.
+SLIP, NORMAL, LOAD, SLIDES, SLID, FACTOR = 0, 3, 6, 7, 8, 9
+CONTACT = 10
+SETTLED = 1e-3  # relative change of a normal force at which it is known (P-31)
+SMALL = 1e-3  # of the largest normal force: what is less is known as well as this is
+ALIGNED = 0.9998  # cosine of a turn of the normal, 1.1 degrees, up to which it is known
 
 
 @kernel
@@ -92,42 +92,65 @@ def cone_at(friction, i):
 
 
 @kernel
-def set_load(friction, state, i, n, size):
-    """Take a normal force for known: the elastic slip of the step's beginning is carried to it."""
+def set_load(friction, state, ahead, i, n, size):
+    """Take a normal force for known: the elastic slip of the step's beginning is carried to it.
+
+    ``state``: at the step's beginning; ``ahead``: where the wire's axis is taken from.
+    """
     for c in range(3):
         friction.load[i, c] = n[c]
     friction.load[i, 3] = size
     kept = state.contact[i]
-    before = kept[LOAD]
+    before, now = kept[FACTOR] * kept[LOAD], friction.factor[i] * size
     slip = (0.0, 0.0, 0.0)
-    if before > 0.0 and size > 0.0:
+    if before > 0.0 and now > 0.0:
         old = (kept[NORMAL], kept[NORMAL + 1], kept[NORMAL + 2])
         slip = transported((kept[SLIP], kept[SLIP + 1], kept[SLIP + 2]), old, n)
-        slip = under_load(slip, before, size)
-    t, radius = axis_at(state, i), friction.radius[i]
+        slip = under_load(slip, before, now)
+    t, radius = axis_at(ahead, i), friction.radius[i]
     turning = by_turning(n, t, radius)
-    leaning = along_wall(n, scale(radius / span_at(state, i), t))
+    leaning = along_wall(n, scale(radius / span_at(ahead, i), t))
     for c in range(3):
         friction.anchor[i, c] = slip[c]
         friction.turning[i, c] = turning[c]
         friction.leaning[i, c] = leaning[c]
 
 
-@kernel
-def begin(friction, state, held, dt):
-    """Begin a step of length dt at a state, with the normal forces that it has."""
+@part
+def _start_at(friction, state, i):
+    """Take a node's position, angle and lean for those at the beginning of a step."""
+    for c in range(3):
+        friction.start[i, c] = state.q[i, c]
+    friction.start[i, 3] = angle_at(state, i)
+    beside = spread_at(state, i)
+    for c in range(3):
+        friction.start[i, 4 + c] = beside[c]
+    friction.slides[i] = state.contact[i, SLIDES] > 0.0
+
+
+@part
+def begin(rod, lumen, wall, state, held, dt, work):
+    """Begin a step of length dt at a state, with the wall's forces there."""
+    friction = wall.friction
     friction.rate[0] = 1.0 / dt
+    read_loads(rod, lumen, wall, state, held, work)
     for i in range(held + 1, state.q.shape[0]):
-        for c in range(3):
-            friction.start[i, c] = state.q[i, c]
-        friction.start[i, 3] = angle_at(state, i)
-        beside = spread_at(state, i)
-        for c in range(3):
-            friction.start[i, 4 + c] = beside[c]
+        _start_at(friction, state, i)
+        n, size = normal_at(friction, work.gradient, i)
+        friction.factor[i] = factor_at(friction, row(state.q, i)) if size > 0.0 else 1.0
+        set_load(friction, state, state, i, n, size)
+
+
+@kernel
+def recall(friction, state, held):
+    """Bring back the contacts of the step that ended at a state, whose tractions it is held by."""
+    friction.rate[0] = 1.0
+    for i in range(held + 1, state.q.shape[0]):
+        _start_at(friction, state, i)
         kept = state.contact[i]
-        friction.slides[i] = kept[SLIDES] > 0.0
-        friction.factor[i] = factor_at(friction, row(state.q, i)) if kept[LOAD] > 0.0 else 1.0
-        set_load(friction, state, i, (kept[NORMAL], kept[NORMAL + 1], kept[NORMAL + 2]), kept[LOAD])
+        friction.factor[i] = kept[FACTOR]
+        n = (kept[NORMAL], kept[NORMAL + 1], kept[NORMAL + 2])
+        set_load(friction, state, state, i, n, kept[LOAD])
 
 
 @kernel
@@ -230,45 +253,78 @@ def read_loads(rod, lumen, wall, state, held, work):
 
 
 @kernel
-def reload(rod, lumen, wall, state, ahead, work):
-    """Take the normal forces at the end of a step for known; whether they were (P-31).
-
-    A node that has left its static cone slides from now on, and one that slides and would not
-    reach its kinetic one sticks.
-    """
-    friction, held = wall.friction, state.held[0]
-    read_loads(rod, lumen, wall, ahead, held, work)
-    largest, change, turned = 0.0, 0.0, False
-    for i in range(held + 1, state.q.shape[0]):
-        push = row(work.gradient, i)
-        size = sqrt(dot(push, push))
-        if size == 0.0 and friction.load[i, 3] == 0.0:
-            continue
-        largest = max(largest, size)
-        change = max(change, abs(size - friction.load[i, 3]))
-        n = scale(-1.0 / size, push) if size > 0.0 else row(friction.load, i)
-        fresh = friction.load[i, 3] == 0.0
-        if not fresh:
-            reach, _ = reach_at(friction, ahead, i)
-            cone, stiffness = cone_at(friction, i)
-            slides = stiffness * norm(reach) > cone
-            if slides != friction.slides[i] and friction.kinetic[i] < friction.static[i]:
-                turned = True
-            friction.slides[i] = slides
-        friction.factor[i] = factor_at(friction, row(ahead.q, i))
-        set_load(friction, state, i, n, size)
-    return change <= SETTLED * largest and not turned
+def normal_at(friction, gradient, i):
+    """Direction and size of the wall's force on a node; the direction that it had if it is none."""
+    push = row(gradient, i)
+    size = norm(push)
+    return scale(-1.0 / size, push) if size > 0.0 else row(friction.load, i), size
 
 
 @kernel
-def keep(friction, state, ahead):
-    """Carry the elastic slip over to the end of a step, and count what friction took."""
+def gives_way(friction, ahead, i):
+    """Whether a node that sticks, and slides more easily than that, has left its cone."""
+    if friction.slides[i] or friction.kinetic[i] == friction.static[i]:
+        return False
+    reach, _ = reach_at(friction, ahead, i)
+    cone, stiffness = cone_at(friction, i)
+    return stiffness * norm(reach) > cone
+
+
+@kernel
+def known(friction, gradient, ahead, held):
+    """Whether a step was solved with the normal forces that it ends with (P-31)."""
+    nodes = ahead.q.shape[0]
+    largest = 0.0
+    for i in range(held + 1, nodes):
+        largest = max(largest, normal_at(friction, gradient, i)[1])
+    for i in range(held + 1, nodes):
+        n, size = normal_at(friction, gradient, i)
+        before = friction.load[i, 3]
+        if abs(size - before) > SETTLED * max(size, SMALL * largest):
+            return False
+        if size > SMALL * largest and dot(n, row(friction.load, i)) < ALIGNED:
+            return False
+        if before > 0.0 and gives_way(friction, ahead, i):
+            return False
+    return True
+
+
+@part
+def reload(rod, lumen, wall, state, ahead, work):
+    """Whether the normal forces at the end of a step were known; they are taken for known if not.
+
+    A node that has left its static cone slides for the rest of the step: with two coefficients, one
+    that could stick again might go to and fro for ever. ``keep`` decides what it does from there.
+    """
+    friction, held = wall.friction, state.held[0]
+    if friction.drag > 0.0:  # a viscous traction does not depend on the normal force
+        return True
+    read_loads(rod, lumen, wall, ahead, held, work)
+    if known(friction, work.gradient, ahead, held):
+        return True
+    for i in range(held + 1, state.q.shape[0]):
+        if friction.load[i, 3] > 0.0 and gives_way(friction, ahead, i):
+            friction.slides[i] = True
+        n, size = normal_at(friction, work.gradient, i)
+        friction.factor[i] = factor_at(friction, row(ahead.q, i)) if size > 0.0 else 1.0
+        set_load(friction, state, ahead, i, n, size)
+    return False
+
+
+@kernel
+def keep(rod, friction, state, ahead):
+    """Carry the elastic slip over to the end of a step, and count what friction took.
+
+    With the forces that the step was solved with: so records are in balance to round-off.
+    """
     for i in range(1, state.q.shape[0]):
         kept = state.contact[i]
         size = friction.load[i, 3] if i > state.held[0] else 0.0
+        kept[LOAD], kept[FACTOR] = size, friction.factor[i]
         if size == 0.0:
-            for c in range(SLID):
+            for c in range(LOAD):
                 kept[c] = 0.0
+            kept[SLIDES] = 0.0
             continue
         reach, way = reach_at(friction, ahead, i)
         cone, stiffness = cone_at(friction, i)
@@ -276,11 +332,11 @@ def keep(friction, state, ahead):
         if stiffness > 0.0:
             slip = returned(reach, cone, stiffness)
             state.spent[0] += lost(reach, cone, stiffness)
+        state.spent[0] += friction.drag * rod.cell[i] * friction.rate[0] * dot(way, way)
         for c in range(3):
             kept[SLIP + c] = slip[c]
             kept[NORMAL + c] = friction.load[i, c]
-        kept[LOAD] = size
-        kept[SLIDES] = 1.0 if friction.slides[i] else 0.0
+        kept[SLIDES] = 1.0 if stiffness * norm(reach) > cone else 0.0
         kept[SLID] += norm(sub(reach, slip)) if stiffness > 0.0 else norm(way)
 
 
