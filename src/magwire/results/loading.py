@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
 FIRST = (
     "time", "feed", "position", "field", "contact_force", "clearance", "clearance_midpoint",
-    "tip_force", "tip_offset", "tip_departure", "newton_iterations", "stable", "wall_time",
+    "tip_force", "tip_offset", "newton_iterations", "stable", "wall_time",
     "normalized_push", "normalized_field", "normalized_tip_force",
 )  # fmt: skip
 """Variables that every result has; those that came later may be absent from older files."""
 LUMEN = ("centreline", "lumen_radius", "lumen_branch")
 KNOWN: dict[str, Any] = VARIABLES | DERIVED | CONSTANTS
-TEXTS = ("status", "message", "scenario", "motion")
+TEXTS = ("status", "message", "scenario")
 NUMBERS = (*running_attributes(None), "length_scale", "force_scale", "field_scale")
 PACKED = 1000
 """What compression makes smaller at most, over what is stored."""
@@ -61,6 +61,9 @@ def _damage(file: Any) -> str:
         return "is not a result of magwire"
     absent = [name for name in FIRST if name not in file]
     absent += [name for name in (*TEXTS, *NUMBERS) if name not in file.attrs]
+    if "wall_force" in file:  # not of the first version, which lacked these, see ``older``
+        absent += ["tip_departure"] * ("tip_departure" not in file)
+        absent += ["motion"] * ("motion" not in file.attrs)
     if absent:
         return f"is damaged: it lacks {' and '.join(absent[:3])}"
     for name in file:
@@ -86,8 +89,9 @@ def _misfit(dataset: xr.Dataset) -> str:
     absent = [name for name in LUMEN if name not in dataset.variables]
     if absent and len(absent) < len(LUMEN):  # none of them is there in open space
         return f"is damaged: it lacks {' and '.join(absent)}"
-    if any(not isinstance(dataset.attrs[name], str) for name in TEXTS):
-        return f"is damaged: {' and '.join(TEXTS)} must be texts"
+    texts = (*TEXTS, "motion")
+    if any(not isinstance(dataset.attrs.get(name, ""), str) for name in texts):
+        return f"is damaged: {' and '.join(texts)} must be texts"
     for name in NUMBERS:
         given = np.asarray(dataset.attrs[name])
         if given.size != 1 or given.dtype.kind not in "fiu":

@@ -16,18 +16,19 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 WANTED = ("position", "contact_force")
-NEVER_KEPT = ("push_force", "guide_torque")
+NEVER_KEPT = ("push_force", "guide_torque", "tip_departure")
 NOT_YET = {"friction_force": 0.0, "slip": 0.0, "friction_work": 0.0}
 """Of versions without friction."""
 LATER = {"guide_twist": np.nan, "tip_twist": np.nan}
+ONLY_MOTION = "dynamic"  # of versions that did not say which
 
 
 def completed(dataset: xr.Dataset) -> xr.Dataset:
     """A result with all variables on forces.
 
     Those along the wire follow from the forces on its nodes; those along the lumen, too, if it is a
-    single tube. What the guide did and where the magnet is were not kept: NaN. There was no
-    friction.
+    single tube. What the guide did, where the magnet is, and how far a model was off were not kept:
+    NaN. Nor was the motion, there being one kind only. There was no friction.
     """
     if not all(name in dataset for name in WANTED):
         return dataset
@@ -48,12 +49,15 @@ def completed(dataset: xr.Dataset) -> xr.Dataset:
         name: (DERIVED[name].dims, values, _notes(DERIVED[name])) for name, values in added.items()
     }
     for name in NEVER_KEPT:
+        if name in dataset:
+            continue
         unknown = np.full(dataset.sizes["time"], np.nan)
         made[name] = (VARIABLES[name].dims, unknown, _notes(VARIABLES[name]))
     if len(layout.arc):
         made["arc"] = (("arc",), layout.arc, _notes(CONSTANTS["arc"]))
         made["way"] = (("arc", "xyz"), layout.point(layout.arc)[:, :3], _notes(CONSTANTS["way"]))
-    return dataset.assign(made).assign_attrs(force_attributes(layout))
+    attributes = {"motion": ONLY_MOTION} | dataset.attrs | force_attributes(layout)
+    return dataset.assign(made).assign_attrs(attributes)
 
 
 def _filled(dataset: xr.Dataset) -> xr.Dataset:
