@@ -240,7 +240,7 @@ class Lumen:
         >>> lumen = mw.Lumen.tree({"ahead": ahead, "aside": aside}, target="aside")
         >>> lumen.outlets
         ('ahead', 'aside')
-        >>> lumen.path("ahead").length
+        >>> round(lumen.path("ahead").length, 9)
         0.08
 
         Notes

@@ -28,6 +28,13 @@ class Schedule:
     ------
     InputError
         If the shapes do not fit or the knots do not rise.
+
+    Examples
+    --------
+    >>> import magwire as mw
+    >>> schedule = mw.Schedule(feed=[0.0, 0.1], flux_density=[[0.0, 0.0, 0.0], [0.0, 0.02, 0.0]])
+    >>> schedule.at(0.05).tolist()
+    [[0.0, 0.01, 0.0]]
     """
 
     feed: Array
