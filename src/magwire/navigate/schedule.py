@@ -56,7 +56,7 @@ class Schedule:
     def along(cls, course: Sequence[tuple[float, Array]]) -> Schedule:
         """A schedule from feeds [m] and fields [T] in the order of the motion, either way.
 
-        Of a feed that comes more than once, as in a pause, the last field counts.
+        Where a feed comes more than once, as in a pause, the last field counts.
         """
         fields = dict(course)
         knots = sorted(fields)
