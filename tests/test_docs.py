@@ -235,3 +235,42 @@ def test_reproduce_page_names_every_part() -> None:
     text = (ROOT / "docs" / "reproduce.md").read_text(encoding="utf-8")
     named = re.findall(r"`([a-z-]+)`", " ".join(re.findall(r"^\| (`.*?) \|", text, re.MULTILINE)))
     assert named == list(PARTS)
+
+
+# Being written elsewhere: each is taken off this list with the next change to it.
+TO_MEND = (
+    "batch.py",
+    "cli/commands/animate.py",
+    "cli/commands/lumen.py",
+    "cli/pictures.py",
+    "cli/vessel_files.py",
+    "cli/vessels.py",
+    "engine/statics.py",
+    "env/baselines.py",
+    "env/episodes.py",
+    "env/picture.py",
+    "env/task.py",
+    "env/vector_env.py",
+    "env/wire_env.py",
+    "lumen_commands.py",
+    "navigate/model.py",
+    "navigate/navigator.py",
+    "operate/assist.py",
+    "report/vessel.py",
+    "scenario/kind.py",
+    "simulation.py",
+)
+SOURCES = ROOT / "src" / "magwire"
+OPENS_WITH_OF = re.compile(r"^( +)[\w, ]+\n\1    Of .*$", re.MULTILINE)
+
+
+@pytest.mark.parametrize(
+    "source",
+    [p for p in sorted(SOURCES.rglob("*.py")) if "kernels" not in p.parts],
+    ids=lambda path: path.relative_to(SOURCES).as_posix(),
+)
+def test_texts_of_parameters_can_be_read_on_their_own(source: Path) -> None:
+    """A rendered table has the name in another cell: "Of the wire [m]" says nothing there."""
+    if source.relative_to(SOURCES).as_posix() in TO_MEND:
+        pytest.skip("being written elsewhere")
+    assert OPENS_WITH_OF.findall(source.read_text(encoding="utf-8")) == []

@@ -43,8 +43,8 @@ class Prospect:
     reached
         Whether the tip gets there, up to one radius before the end.
     length, fed, came
-        Of the way; how far the wire was fed; and how far along the way the tip came [m]. A wire
-        that cuts the bends is shorter than the way.
+        Length of the path; insertion length of the wire; and how far along the path the tip came
+        [m]. A wire that cuts the bends is shorter than the path.
     narrowest, narrowest_at
         Smallest radius on the way and the arc parameter where it is [m].
     bend

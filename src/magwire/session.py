@@ -98,14 +98,14 @@ class Session:
         Parameters
         ----------
         feed_speed
-            Of the guide [m/s]; negative retracts.
+            Speed of the guide [m/s]; negative retracts.
         twist_rate
-            Of the guide about its axis [rad/s].
+            Rate of the guide about its axis [rad/s].
         inputs
-            Of the actuator at the interval's end, reached linearly, shape (m,): a uniform flux
-            density [T]. If left out, the navigator's, or as they are without one.
+            Inputs of the actuator at the interval's end, reached linearly, shape (m,): a uniform
+            flux density [T] without one. If left out, the navigator's, or as they are without one.
         duration
-            Of the interval [s]; one time step if left out.
+            Length of the interval [s]; one time step if left out.
 
         Raises
         ------

@@ -34,7 +34,7 @@ class Actuator(ABC):
     workspace
         Where it is calibrated, in its own frame; None if it holds everywhere.
     max_power
-        Of all coils together [W] (P-27).
+        Largest power of all coils together [W] (P-27).
     """
 
     pose: Pose = HERE

@@ -35,7 +35,7 @@ class Coil:
     turns
         Number of turns; negative turns are wound the other way.
     width, height
-        Of the winding's cross-section along the axis and along the radius [m]; a thin loop if zero.
+        Size of the winding's cross-section along the axis and the radius [m]; a thin loop if zero.
 
     Raises
     ------
@@ -135,7 +135,7 @@ class Pair:
     radius
         Mean radius [m].
     turns
-        Of each coil.
+        Turns of each coil.
     spacing
         Distance of the coils [m]; that of the ideal pair if left out: the radius for a Helmholtz
         pair, the radius times sqrt 3 for a Maxwell pair.
@@ -144,7 +144,7 @@ class Pair:
     circuit
         Resistance and inductance of both together, and the supply.
     width, height
-        Of each winding's cross-section [m].
+        Size of each winding's cross-section [m].
     """
 
     axis: str

@@ -25,7 +25,7 @@ class Input:
     slew
         Largest rate of change [unit/s].
     resistance, inductance, supply
-        Of a coil: R [ohm], L [H] and the voltage of its supply [V], which bounds the rate of
+        For a coil: R [ohm], L [H] and the voltage of its supply [V], which bounds the rate of
         change: |L du/dt + R u| <= V (P-27).
 
     Raises

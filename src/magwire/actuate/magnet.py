@@ -28,7 +28,7 @@ class Magnet(Actuator):
     remanence
         [T].
     length
-        Of a cylinder, magnetised along its axis [m]; None is a sphere.
+        Length of a cylinder, magnetised along its axis [m]; None is a sphere.
     reach
         Where its centre may be, in the arm's frame; anywhere if left out.
     keep_out
@@ -37,7 +37,7 @@ class Magnet(Actuator):
         Position [m] and direction before anybody moves it, in the arm's frame: a metre away if left
         out.
     speed
-        Of its centre along each axis [m/s].
+        Speed of its centre along each axis [m/s].
     turning
         Angular speed [rad/s].
 

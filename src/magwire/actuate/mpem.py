@@ -26,7 +26,7 @@ class MPEM(Actuator):
     calibration
         The coils' sources, and a constant field if there is one.
     max_currents
-        Of each coil [A].
+        Largest current of each coil [A].
     circuits
         The electrical side of each coil.
     saturation

@@ -27,7 +27,7 @@ class Omnimagnet(Actuator):
     position
         Centre [m].
     max_current
-        Of each coil [A].
+        Largest current of each coil [A].
     circuits
         The electrical side of each coil.
     """

@@ -199,7 +199,7 @@ class Desk:
         shape
             Radius and half of the length of a cylinder [m]; None is a sphere.
         remanence
-            Of a cylinder [T].
+            Remanence of a cylinder [T].
         """
         tables = self.tables
         free = all(slot.value is None for slot in self.slots)

@@ -23,7 +23,7 @@ class Friction:
     static
         Coefficient of friction of a wire that sticks: one, or one for each section of the wire.
     kinetic
-        Of a wire that slides; that of ``static`` if left out. Not larger than it.
+        Coefficient of a wire that slides; that of ``static`` if left out. Not larger than it.
     drag
         Viscous force per length and speed where the wall is touched, of a lubricated wall
         [N s/m^2].

@@ -19,14 +19,14 @@ class Command:
     Parameters
     ----------
     feed_speed
-        Of the guide [m/s]; negative retracts.
+        Speed of the guide [m/s]; negative retracts.
     twist_rate
-        Of the guide about its axis [rad/s].
+        Rate of the guide about its axis [rad/s].
     inputs
-        Of the actuator at the interval's end, shape (m,), reached linearly; they stay as they are
-        if left out.
+        Inputs of the actuator at the interval's end, shape (m,), reached linearly; they stay as
+        they are if left out.
     duration
-        Of the interval [s].
+        Length of the interval [s].
     """
 
     feed_speed: float = 0.0
@@ -51,9 +51,9 @@ class Drive:
     feed
         Length of wire past the entrance, shape (k,) [m].
     twist
-        Of the guide, shape (k,) [rad].
+        Twist of the guide, shape (k,) [rad].
     inputs
-        Of the actuator, shape (k, m).
+        Inputs of the actuator, shape (k, m).
     time_step
         dt [s].
     inertia

@@ -29,6 +29,12 @@ class Feed:
     ----------
     times, speeds, twists
         The course: speed and twist are linear in time between these, shape (n,) [s, m/s, rad].
+
+    Examples
+    --------
+    >>> import magwire as mw
+    >>> mw.Feed(speed=1e-3, distance=0.075)
+    <Feed: 75 mm in 75 s, at up to 1 mm/s>
     """
 
     def __init__(self, speed: float, distance: float, *, twist: float = 0.0) -> None:

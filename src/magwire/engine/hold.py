@@ -47,9 +47,9 @@ class Hold:
     Parameters
     ----------
     position
-        Of the tip, shape (3,) [m].
+        Place of the tip, shape (3,) [m].
     direction
-        Of the last edge, shape (3,).
+        Direction of the last edge, shape (3,).
     turn
         Angle by which the end is turned about its axis, from how it is carried there without
         [rad].

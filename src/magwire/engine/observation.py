@@ -30,7 +30,7 @@ class Observation(NamedTuple):
     clearance
         Smallest clearance of the nodes past the guide [m]; infinity if the guide holds them all.
     inputs
-        Of the actuator, shape (m,).
+        Inputs of the actuator, shape (m,).
     """
 
     time: float

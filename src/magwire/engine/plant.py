@@ -83,7 +83,7 @@ class Plant:
     source
         The outside field, next to what the actuator makes; the system's own if left out.
     feed, twist
-        Of the guide at the start [m, rad].
+        Feed and twist of the guide at the start [m, rad].
     tube
         A virtual tube around the centreline (P-19); none if left out.
 
@@ -94,7 +94,7 @@ class Plant:
     status, message
         How the last step ended; what happened and what to try if it failed.
     model, field, state, work
-        Of the wire, as the kernels hold them.
+        Rod, field, state and workspace of the wire, as the kernels hold them.
     """
 
     def __init__(

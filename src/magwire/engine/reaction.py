@@ -21,7 +21,7 @@ def reaction(system: System, held: int, gradient: Array) -> tuple[float, float]:
         Last node that the guide holds. What it holds of the wire in front is an edge: two nodes,
         one angle.
     gradient
-        Of the energy without inertia, scaled, shape (nodes + 1, 4).
+        Gradient of the energy without inertia, scaled, shape (nodes + 1, 4).
     """
     edge = gradient[held - 1 : held + 1]
     push = float(edge[:, :3].sum(axis=0) @ system.guide.direction)

@@ -121,7 +121,7 @@ class Record:
     flux_density
         At the tip, shape (3,) [T].
     inputs
-        Of the actuator, shape (m,).
+        Inputs of the actuator, shape (m,).
     contact_force
         Force of the wall on each node, shape (nodes, 3) [N].
     clearance
@@ -134,7 +134,7 @@ class Record:
     tip_force, tip_offset
         Size of the wall force on the tip node [N]; distance of the tip from the centreline [m].
     friction_force
-        Of the wall on each node, along the wall, shape (nodes, 3) [N]; zero without friction.
+        Force of the wall on each node, along the wall, shape (nodes, 3) [N]; zero without it.
     slip
         How far the surface of each node has slid on the wall so far, shape (nodes,) [m].
     friction_work
@@ -146,7 +146,7 @@ class Record:
         The first material director of the edge from each node, of the last one at the tip, shape
         (nodes, 3).
     push_force, guide_torque
-        Of the guide on the wire in front of it: along the guide [N], about it [N m].
+        Force along the guide [N] and torque about it [N m], of the guide on the wire in front.
     newton_iterations
         Per step, mean since the record before.
     stable

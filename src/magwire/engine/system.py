@@ -55,13 +55,13 @@ class System:
     gravity
         Acceleration, shape (3,) [m/s^2].
     fluid_density
-        Of what fills the lumen [kg/m^3]; its buoyancy acts against gravity.
+        Density of what fills the lumen [kg/m^3]; its buoyancy acts against gravity.
     tip_load
         Dead force on the tip, fixed in space, shape (3,) [N].
     background
         The outside field that is there without any input.
     friction
-        Of the wall; none if None.
+        Friction of the wall; none if None.
     actuator
         What makes a field from inputs; three components of a uniform flux density [T] if None.
     release

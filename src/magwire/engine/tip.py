@@ -23,7 +23,7 @@ def tip_direction(system: System, state: State, held: int) -> Array:
     Parameters
     ----------
     system
-        Of the state.
+        What the state is one of.
     state
         Where the wire is.
     held

@@ -31,7 +31,7 @@ class Wall:
     triangles
         Which corners each has, shape (m, 3).
     radius
-        Of the lumen at each corner, shape (n,) [m].
+        Radius of the lumen at each corner, shape (n,) [m].
     """
 
     points: Array

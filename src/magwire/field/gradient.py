@@ -30,6 +30,14 @@ class GradientField:
     ------
     InputError
         If the gradient has a trace or a skew part (no magnetic field in empty space has).
+
+    Examples
+    --------
+    >>> import magwire as mw
+    >>> field = mw.GradientField((0.01, 0, 0), [[0.2, 0, 0], [0, -0.1, 0], [0, 0, -0.1]])
+    >>> flux, gradient = field.at([[0.05, 0, 0]])
+    >>> flux.round(9).tolist()
+    [[0.02, 0.0, 0.0]]
     """
 
     flux_density: tuple[float, float, float]

@@ -41,7 +41,7 @@ class Lumen:
     branches
         The first one starts at the entrance. None at all is open space.
     paths
-        Of a tree, the centrelines from the entrance to its outlets by their names. ``Lumen.tree``
+        The centrelines of a tree from the entrance to its outlets by their names. ``Lumen.tree``
         makes branches and paths.
     target
         The outlet to go to; the first one if left out.
@@ -240,7 +240,7 @@ class Lumen:
         >>> lumen = mw.Lumen.tree({"ahead": ahead, "aside": aside}, target="aside")
         >>> lumen.outlets
         ('ahead', 'aside')
-        >>> lumen.path("ahead").length
+        >>> round(lumen.path("ahead").length, 9)
         0.08
 
         Notes

@@ -197,7 +197,7 @@ def grown(name: str, line: Line, walls: Walls, width: float | None) -> Branch:
     Parameters
     ----------
     name, line
-        Of the tube.
+        Name of the tube, and its centreline.
     walls
         Those before it.
     width

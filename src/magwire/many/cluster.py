@@ -28,7 +28,7 @@ def run_there(jobs: Sequence[Job], address: str, workers: int) -> Generator[Answ
     jobs
         The runs, begun in this order.
     address
-        Of the scheduler, such as "tcp://10.0.0.1:8786"; "local" starts a cluster on this machine.
+        Address of the scheduler, such as "tcp://10.0.0.1:8786"; "local" starts one on this machine.
     workers
         Number of processes of the local cluster.
 

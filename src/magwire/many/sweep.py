@@ -40,7 +40,7 @@ class Sweep:
     ranges
         One for each key that varies.
     values
-        Of these keys, for each run.
+        Values of these keys, for each run.
     text
         The whole sweep as TOML: the same text is the same sweep.
     note

@@ -19,7 +19,7 @@ class Demands:
     Parameters
     ----------
     tip_clearance
-        Of the tip to the wall, as part of the clearance on the centreline, between 0 and 1.
+        Clearance of the tip to the wall over that on the centreline, between 0 and 1.
     stability_margin
         Smallest eigenvalue of the tangent stiffness against the lumped mass [rad^2/s^2].
     field_tolerance

@@ -28,6 +28,13 @@ class Schedule:
     ------
     InputError
         If the shapes do not fit or the knots do not rise.
+
+    Examples
+    --------
+    >>> import magwire as mw
+    >>> schedule = mw.Schedule(feed=[0.0, 0.1], flux_density=[[0.0, 0.0, 0.0], [0.0, 0.02, 0.0]])
+    >>> schedule.at(0.05).tolist()
+    [[0.0, 0.01, 0.0]]
     """
 
     feed: Array
@@ -49,7 +56,7 @@ class Schedule:
     def along(cls, course: Sequence[tuple[float, Array]]) -> Schedule:
         """A schedule from feeds [m] and fields [T] in the order of the motion, either way.
 
-        Of a feed that comes more than once, as in a pause, the last field counts.
+        Where a feed comes more than once, as in a pause, the last field counts.
         """
         fields = dict(course)
         knots = sorted(fields)

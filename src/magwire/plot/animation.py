@@ -72,7 +72,7 @@ def animate(
     passive
         A run that nobody steered, whose forces are shown for comparison.
     width
-        Of the picture [pixels]; its height is 9/16 of it.
+        Width of the picture [pixels]; its height is 9/16 of it.
     seconds
         How long it takes [s].
     rate

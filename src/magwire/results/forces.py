@@ -32,7 +32,7 @@ class Layout:
     Attributes
     ----------
     length, nodes
-        Of the wire [m]; number of its nodes.
+        Length of the wire [m]; number of its nodes.
     magnet
         Where the distal magnet begins and ends on the wire [m]; NaN without one.
     way

@@ -257,7 +257,7 @@ class Result:
         Parameters
         ----------
         length
-            Of the stretch [m], an edge at least for a number that does not hang on the mesh.
+            Length of the stretch [m]: an edge at least for a number that does not hang on the mesh.
 
         Raises
         ------

@@ -140,7 +140,7 @@ def to_wall(samples: KDTree, points: Array, within: float = 0.0) -> tuple[Array,
     Parameters
     ----------
     samples
-        Of the wall.
+        Samples of the wall.
     points
         Shape (n, 3).
     within

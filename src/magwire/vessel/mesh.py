@@ -27,7 +27,7 @@ class End(NamedTuple):
     centre, outward
         Its middle, and the direction out of the vessel, shape (3,).
     radius
-        Of a circle of the same area.
+        Radius of a circle of the same area.
     across
         Mean of the cosine between its axis and the normals of the wall around it: near 0 at the end
         of a tube, near 1 at a hole in a wall.

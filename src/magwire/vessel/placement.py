@@ -56,7 +56,7 @@ class Size(NamedTuple):
     unit
         If its numbers were in this unit.
     length
-        Of its longest line, or from corner to corner of its box if that is longer [m].
+        Length of its longest line, or from corner to corner of its box if that is longer [m].
     radii
         Smallest and largest radius [m]; not a number if the file has none.
     """

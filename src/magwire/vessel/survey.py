@@ -33,7 +33,7 @@ class Course(NamedTuple):
     Attributes
     ----------
     name
-        Of the outlet.
+        Name of the outlet.
     length
         Arc length [m].
     radii
@@ -96,7 +96,7 @@ def reach(course: Course, radius: float, stiffness: float) -> Reach:
     course
         The way to it.
     radius
-        Of the wire [m].
+        Radius of the wire [m].
     stiffness
         EI [N m^2].
     """
@@ -134,7 +134,7 @@ def flipped_axes(vessel: Vessel, other: Drawing, placement: Placement) -> str | 
     other
         What the other file holds: a surface, or lines.
     placement
-        Of the other file.
+        Placement of the other file.
     """
     points = [line.points for line in other.lines]
     if other.surface is not None:

@@ -47,7 +47,7 @@ def aortic_arch(
     arch_radius
         Radius of the arch's centreline [m].
     radius, ascending_radius
-        Of the lumen in the descending and in the ascending aorta, linear between [m].
+        Radius of the lumen in the descending and ascending aorta, linear between [m].
     descending, ascending
         Lengths of the straight parts [m].
     target
@@ -96,7 +96,8 @@ def carotid_bifurcation(
     Parameters
     ----------
     radius
-        Of the common artery [m]; the internal one has 0.72 of it past the bulb, the external 0.6.
+        Radius of the common artery [m]; the internal one has 0.72 of it past the bulb, the
+        external one 0.6.
     common, length
         Lengths of the common artery and of each of the two [m].
     angle
@@ -141,11 +142,11 @@ def tortuous(
     length
         From end to end along x [m]; the vessel itself is longer.
     radius, end_radius
-        Of the lumen at the entrance and at the end, linear between [m].
+        Radius of the lumen at the entrance and at the end, linear between [m].
     amplitude
         Root mean square of its waves [m].
     seed
-        Of their phases.
+        Seed of their phases.
     """
     owner = "tortuous"
     far = positive(owner, "length", length, "m")
@@ -177,11 +178,11 @@ def coronary_tree(
     Parameters
     ----------
     radius
-        Of the left main artery [m].
+        Radius of the left main artery [m].
     diagonals
         Number of side branches of the anterior artery, at most 3.
     seed
-        Of directions and places.
+        Seed of directions and places.
     target
         "anterior", "circumflex", or "diagonal 1" and so on.
     """

@@ -38,7 +38,7 @@ class Tube:
     points, radius, narrowed
         Its own ones, shapes (n, 3), (n,) and (n,) [m].
     paces, deviation
-        Of the file's points: how far along the way each is, in radii, and from it [m], (m,).
+        How far each of the file's points is along the path, in radii, and from it [m], (m,).
     """
 
     parent: Tube | None

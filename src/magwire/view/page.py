@@ -61,7 +61,7 @@ def page(results: Sequence[tuple[str | Path, xr.Dataset]]) -> Page:
     Parameters
     ----------
     results
-        Of each what it is called where it has no title, and its variables and attributes.
+        What each is called where it has no title, and its variables and attributes.
 
     Raises
     ------

@@ -65,7 +65,7 @@ class Make:
     diameter, radius
         Outer diameter or radius [m]; one of them.
     inner_diameter, inner_radius
-        Of a bore [m]; at most one of them.
+        Diameter or radius of a bore [m]; at most one of them.
     taper_to
         Diameter at the distal end [m] of a make that tapers evenly; a bore does in proportion.
     youngs_modulus

@@ -33,12 +33,12 @@ class Mesh:
     cell_end
         Where each node's Voronoi cell ends, shape (nodes,) [m].
     edge_length, stretching_stiffness, moment, axial_inertia
-        Of each edge: length [m], EA [N], magnetic moment in the material frame, shape
+        For each edge: length [m], EA [N], magnetic moment in the material frame, shape
         (nodes - 1, 3) [A m^2], moment of inertia about its axis [kg m^2].
     bending_stiffness, twisting_stiffness, rest_turn
-        Of each node's cell: EI/l and GJ/l [N m], integrated rest curvature, shape (nodes, 2).
+        For each node's cell: EI/l and GJ/l [N m], integrated rest curvature, shape (nodes, 2).
     mass, volume, radius
-        Of each node's cell: mass [kg], volume of material [m^3], outer radius [m].
+        For each node's cell: mass [kg], volume of material [m^3], outer radius [m].
     shares
         Parts of each node's cell that belong to the sections, shape (nodes, sections).
     """

@@ -106,6 +106,16 @@ class Wire:
             (m1, m2, tangent), and the *last* one is along the wire.
         rest_curvature
             Curvature of the unloaded wire towards m1 and m2, shape (2,) [1/m].
+
+        Examples
+        --------
+        >>> import magwire as mw
+        >>> wire = mw.Wire.uniform(
+        ...     length=0.1, radius=0.6e-3, youngs_modulus=3e6, shear_modulus=1e6, density=2000.0,
+        ...     nodes=100, magnetized_tip=5e-3, magnetization=128e3,
+        ... )
+        >>> wire.magnet
+        (0.095, 0.1)
         """
         positive("Wire", "length", length, "m")
         tip = nonnegative("Wire", "magnetized_tip", magnetized_tip, "m")
@@ -154,6 +164,14 @@ class Wire:
         ------
         InputError
             If a value is out of its range.
+
+        Examples
+        --------
+        >>> import magwire as mw
+        >>> make = mw.Make(diameter=0.36e-3, youngs_modulus=60e9, poisson_ratio=0.3, density=6450.0)
+        >>> mw.Wire.of(make, length=0.1, nodes=51)
+        Wire of 100 mm, 1 section, 51 nodes, proximal first:
+          100 mm: diameter 0.36 mm, EI 4.947e-05 N m^2, GJ 3.805e-05 N m^2, EA 6107 N
         """
         instance("Wire", "make", make, Make)
         tip = nonnegative("Wire", "magnetized_tip", magnetized_tip, "m")

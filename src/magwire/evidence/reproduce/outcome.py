@@ -32,7 +32,7 @@ class Outcome:
     field
         B*, shape (t, 3).
     offset
-        Of the tip from the centreline, shape (t,) [m].
+        Distance of the tip from the centreline, shape (t,) [m].
     unit
         EI / L^2, the force that makes F* = 1 [N].
     pace

@@ -79,7 +79,7 @@ class Report:
     full
         Whether all cases were run, or the fast set.
     version, machine, date
-        Of magwire; Python, libraries and platform; UTC, to the second.
+        Version of magwire; Python, libraries and platform; UTC, to the second.
     """
 
     groups: tuple[Group, ...]
@@ -123,7 +123,7 @@ def gather(
     Parameters
     ----------
     names
-        Of the groups, among ``GROUPS``.
+        Names of the groups, among ``GROUPS``.
     full
         Run all cases, in minutes; the fast set if left out.
     watch

@@ -43,7 +43,7 @@ class Rig:
     Parameters
     ----------
     nodes
-        Of the wire. A straight wire has a massless edge more at each end, which gives the
+        Nodes of the wire. A straight wire has a massless edge more at each end, which gives the
         direction of a clamp; a ring has as many hinges as nodes, and its first edge comes again
         after the last.
     twisting

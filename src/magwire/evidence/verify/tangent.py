@@ -21,7 +21,7 @@ def natural_frequencies(state: Equilibrium, count: int) -> tuple[Array, Array]:
     frequencies
         Shape (count,) [rad/s]; NaN where the equilibrium is unstable.
     modes
-        Of each, by node and x, y, z, twist angle; zero on the guide, shape (count, nodes, 4).
+        Shape of each, by node and x, y, z, twist angle; zero on the guide, shape (count, nodes, 4).
     """
     point = state.point
     system, work, held = point.system, point.system.new_work(), point.mouth.held

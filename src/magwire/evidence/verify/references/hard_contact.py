@@ -28,9 +28,9 @@ class Pressed:
     joints
         Ends of the links, shape (links, 2) [L].
     wall_force
-        Of the walls on them, shape (links, 2) [EI/L^2].
+        Force of the walls on them, shape (links, 2) [EI/L^2].
     energy
-        Of bending [EI/L].
+        Energy of bending [EI/L].
     misfit
         Norm of the torques on the links that the walls' forces leave over [EI/L].
     """

@@ -54,7 +54,7 @@ class Rod:
     joints
         Places, shape (links, 3) [L].
     wall_force
-        Of the wall on the joints, shape (links, 3) [EI/L^2].
+        Force of the wall on the joints, shape (links, 3) [EI/L^2].
     gap
         h of the joints, shape (links,) [L^2].
     """

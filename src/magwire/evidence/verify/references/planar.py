@@ -49,7 +49,7 @@ def elastica(
     stiffness
         EI along the wire, s from 0 to 1; 1 if left out.
     rest_curvature
-        Of the unloaded wire.
+        Curvature of the unloaded wire.
     force, weight
         Dead force on the tip, and for each unit of length, shape (2,).
     joints

@@ -22,7 +22,7 @@ def slider(course: Array, stiffness: float, cone: float) -> tuple[Array, float]:
     course
         Positions of the spring's end [m], from an unloaded spring.
     stiffness
-        Of the spring [N/m].
+        Stiffness of the spring [N/m].
     cone
         Force at which the slider moves [N].
     """
@@ -56,7 +56,7 @@ def capstan(pull: float, angle: float, friction: float, radius: float, stiffness
     friction
         Coefficient of friction.
     radius
-        Of the drum, to the rod's axis [m].
+        Radius of the drum, to the rod's axis [m].
     stiffness
         EI [N m^2].
 
@@ -151,7 +151,7 @@ def torque_arrived(
     friction
         Coefficient of friction.
     radius
-        Of the rod [m].
+        Radius of the rod [m].
     force
         Size of the axial force, the same all along [N].
     """

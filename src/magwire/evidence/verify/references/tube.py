@@ -52,7 +52,7 @@ def least_load(
     Parameters
     ----------
     length, stiffness
-        Of the beam [m, N m^2].
+        Length and stiffness of the beam [m, N m^2].
     foundation
         k at places along the beam [N/m^2].
     carried, tension
@@ -63,7 +63,7 @@ def least_load(
         Stiffness of springs of the size F times these, at places along the beam [1/m]; negative
         ones push away.
     elements
-        Of equal length, cubic.
+        Number of elements, of equal length, cubic.
     """
     h = length / elements
     fixed, load = np.zeros((2, 2 * elements + 2, 2 * elements + 2))
