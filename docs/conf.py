@@ -44,7 +44,7 @@ numpydoc_xref_param_type = False
 sphinx_gallery_conf = {
     "examples_dirs": "../examples",
     "gallery_dirs": "gallery",
-    "filename_pattern": r"\.py$",
+    "filename_pattern": r"plot_\w+\.py$",  # the others take a command line
     "download_all_examples": False,
     "show_memory": False,
     "show_signature": False,

@@ -1,6 +1,6 @@
 """Random actions in random vessels: no exception, no NaN, no node outside the wall.
 
-    python tests/campaigns/random_vessels.py --steps 1000000
+    python -m campaigns.random_vessels --steps 1000000
 
 Counts what happened, and ends with status 1 if anything did that must not.
 """

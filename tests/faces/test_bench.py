@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 
 from magwire.cli import main
+from magwire.evidence.bench import learning
+from magwire.evidence.bench.others import by_environment
 from magwire.evidence.bench.page import load, text
 from magwire.evidence.bench.repeats import exponent, interleaved, least, median
 
@@ -76,6 +78,15 @@ def test_page_of_the_documentation_is_made_of_its_samples(
     page = (ROOT / "docs" / "benchmarks.md").read_text(encoding="utf-8")
     assert text(load(samples)) in page
     assert "11  Other engines" in capsys.readouterr().out
+
+
+def test_environments_have_a_row_each(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(learning, "WIRES", 2)
+    deep, whole = (learning.batch(1, deep=deep, steps=2) for deep in (True, False))
+    assert deep["rate"] > 0.0
+    assert deep["newton"] >= 1.0
+    rows = [{"what": name, "threads": 1, "samples": [s]} for name, s in (("a", deep), ("b", whole))]
+    assert by_environment(rows).row_count == 2
 
 
 def test_exponent_is_a_slope() -> None:
