@@ -54,6 +54,9 @@ class Job:
         wall = scenario.contact
         parts = (scenario.wire, scenario.lumen, scenario.field, wall, wall.friction, scenario.feed)
         faults = [text for part in parts for text in refusals(part.build)]
+        if not faults:
+            sections = len(scenario.wire.build().sections)
+            faults += refusals(lambda: wall.friction.build().of_sections(sections))
         if faults:
             raise ScenarioError(faults)
         try:
