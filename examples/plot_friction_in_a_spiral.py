@@ -10,11 +10,11 @@ as a rope around a capstan does. So the force at the guide grows as
 
 .. math:: F = F_0 \, e^{\mu \phi},
 
-with the angle :math:`\phi = \int \kappa \, \mathrm{d}s` that the wire has gone round: its logarithm
-is a line of slope :math:`\mu`, where the force is large against that of bending,
-:math:`EI\kappa^2/2`. As friction acts on the wire's surface, which goes farther round than its axis,
-the slope is larger by about the wire's radius over that of the turn. Without friction the force does
-not grow at all once the wire follows the spiral.
+with the angle :math:`\phi = \int \kappa \, \mathrm{d}s` that the wire has gone round: its
+logarithm is a line of slope :math:`\mu`, where the force is large against that of bending,
+:math:`EI\kappa^2/2`. As friction acts on the wire's surface, which goes farther round than its
+axis, the slope is larger by about the wire's radius over that of the turn. Without friction the
+force does not grow at all once the wire follows the spiral.
 """
 
 from __future__ import annotations
