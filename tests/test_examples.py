@@ -37,6 +37,12 @@ def own_wire(names: Names) -> None:
     assert names["turned"] == pytest.approx(names["expected"], rel=1e-3)
 
 
+def friction_in_a_spiral(names: Names) -> None:
+    assert names["slope"] == pytest.approx(names["expected"], rel=0.03)
+    assert names["rough"].status == names["smooth"].status == "complete"
+    assert 0.5 < names["share"] < 1.0
+
+
 def coronary_tree(names: Names) -> None:
     assert list(names["vessel"].tubes) == ["end-2", "end-3", "end-4", "end-5", "end-6"]
     assert names["lumen"].length == pytest.approx(0.135, abs=0.003)
@@ -78,6 +84,7 @@ CHECKS: dict[str, Callable[[Names], None]] = {
     "plot_coronary_tree": coronary_tree,
     "score_policies": score_policies,
     "train_policy": train_policy,
+    "plot_friction_in_a_spiral": friction_in_a_spiral,
 }
 
 

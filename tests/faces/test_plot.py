@@ -143,7 +143,7 @@ def test_wide_lumen_shares_its_column() -> None:
     data = made(info(line, title="Tube"))
     assert shapes.aspect(data) > 5.0
     panels = [ax for ax in plot.draw(data).get_axes() if ax.get_title(loc="left")]
-    assert len(panels) == 6
+    assert len(panels) == 8
 
 
 def test_map_shows_where_along_the_lumen_the_wall_is_pressed() -> None:
@@ -190,3 +190,20 @@ def test_both_runs_have_a_map_on_one_scale() -> None:
     assert len(maps) == 2
     assert maps[0].get_clim() == maps[1].get_clim()
     assert maps[0].get_clim()[1] == passive["lumen_force"].values.max()
+
+
+def test_a_row_on_friction_where_there_is_any() -> None:
+    """With the twists of a wire that is turned on its way, or else how far it slid."""
+    rubbed = made(info())
+    still = rubbed.assign(guide_twist=0.0 * rubbed["guide_twist"])
+    smooth = rubbed.assign(friction_work=0.0 * rubbed["friction_work"])
+    labels = [
+        {ax.get_ylabel() for ax in plot.draw(data).get_axes()} for data in (rubbed, still, smooth)
+    ]
+    assert {"friction [mN]", "work of friction [µJ]", "twist [deg]"} <= labels[0]
+    assert "slid on the wall [mm]" in labels[1]
+    assert labels[1] - labels[2] == {
+        "friction [mN]",
+        "work of friction [µJ]",
+        "slid on the wall [mm]",
+    }

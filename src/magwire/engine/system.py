@@ -95,6 +95,8 @@ class System:
         object.__setattr__(self, "gravity", tuple(gravity.tolist()))
         object.__setattr__(self, "tip_load", tuple(tip_load.tolist()))
         one_of("Simulation", "release", self.release, ("sliding", "node"))
+        if self.friction is not None:
+            self.friction.of_sections(len(self.wire.sections))
         self._check_edges()
 
     def __repr__(self) -> str:

@@ -24,8 +24,10 @@ def rubs(data: xr.Dataset) -> bool:
 
 
 def turned(data: xr.Dataset) -> bool:
-    """Whether the guide turned the wire."""
-    return "guide_twist" in data and bool(np.any(np.abs(data["guide_twist"].values) > TURNED))
+    """Whether the guide turned the wire on its way."""
+    if "guide_twist" not in data or not data.sizes["time"]:
+        return False
+    return bool(np.ptp(data["guide_twist"].values) > TURNED)
 
 
 def draw_friction(ax: Axes, data: xr.Dataset) -> None:

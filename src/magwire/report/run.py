@@ -171,8 +171,7 @@ def _rubbing(result: Result) -> dict[str, str]:
     if result.work_of_friction > 0.0:
         slid = _short(float(result.slip.max(initial=0.0)))
         rows["work of friction"] = f"{result.work_of_friction:.4g} J, over up to {slid} of slip"
-    guide = np.abs(result.guide_twist)
-    if guide.size and np.nanmax(guide, initial=0.0) > TURNED:
+    if result.guide_twist.size and np.ptp(result.guide_twist) > TURNED:
         last = np.degrees([result.guide_twist[-1], result.tip_twist[-1]])
         rows["twist"] = (
             f"guide {last[0]:.4g} deg, tip {last[1]:.4g} deg at the end; "

@@ -55,6 +55,11 @@ class Job:
         wall = scenario.contact
         faults = [text for name in tables for text in refusals(name, getattr(scenario, name).build)]
         faults += refusals("contact.friction", wall.friction.build)
+        if not faults:
+            sections = len(scenario.wire.build().sections)
+            faults += refusals(
+                "contact.friction", lambda: wall.friction.build().of_sections(sections)
+            )
         if faults:
             raise ScenarioError(faults)
         try:

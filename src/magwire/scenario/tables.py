@@ -16,7 +16,8 @@ from magwire.scenario.quantity import (
     Rate,
     Time,
 )
-from magwire.scenario.table import Table, preset
+from magwire.scenario.table import Table as Table
+from magwire.scenario.table import preset as preset
 
 if TYPE_CHECKING:
     from magwire.contact import Barrier
