@@ -16,8 +16,7 @@ from magwire.scenario.quantity import (
     Rate,
     Time,
 )
-from magwire.scenario.table import Table as Table
-from magwire.scenario.table import preset as preset
+from magwire.scenario.table import Table, preset
 
 if TYPE_CHECKING:
     from magwire.contact import Barrier
