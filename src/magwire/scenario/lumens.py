@@ -19,7 +19,7 @@ from magwire.scenario.quantity import (
     Whole,
     at_least_one,
 )
-from magwire.scenario.tables import Table, preset
+from magwire.scenario.table import Table, preset
 
 if TYPE_CHECKING:
     from magwire.lumen import Lumen

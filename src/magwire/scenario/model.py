@@ -28,6 +28,7 @@ from magwire.scenario.synthetic import (
     CoronaryTreeLumen,
     TortuousLumen,
 )
+from magwire.scenario.table import Table
 from magwire.scenario.tables import (
     ConstantFeed,
     ContactTable,
@@ -36,7 +37,6 @@ from magwire.scenario.tables import (
     OutputTable,
     SectionedWire,
     SolverTable,
-    Table,
     TabledFeed,
     UniformFieldTable,
     UniformWire,

@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from magwire.scenario.quantity import Length, Quantity, Row, Rows, Share, Whole
-from magwire.scenario.tables import Table, preset
+from magwire.scenario.table import Table, preset
 
 if TYPE_CHECKING:
     from magwire.navigate import Navigator

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from magwire.scenario.lumens import LumenTable
 from magwire.scenario.quantity import Length, LengthOrZero, PositiveAngle, Whole
-from magwire.scenario.tables import preset
+from magwire.scenario.table import preset
 
 if TYPE_CHECKING:
     from magwire.lumen import Lumen

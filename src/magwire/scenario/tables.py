@@ -41,8 +41,7 @@ from magwire.scenario.quantity import (
     Whole,
     at_least_one,
 )
-from magwire.scenario.table import Table as Table
-from magwire.scenario.table import preset as preset
+from magwire.scenario.table import Table, preset
 
 if TYPE_CHECKING:
     from magwire.contact import Barrier
