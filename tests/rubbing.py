@@ -111,9 +111,10 @@ def rope_pull(
     for _ in range(parts):
         session.step(feed_speed=-travel / parts / session.time_step)
     stiffness = session.plant.system.wire.bending_stiffness
-    thin = capstan(pull, bend.turned, friction, bend.radius, stiffness)
+    turned = bend.turned - ROOM / LEAD  # the guide is beside the drum's tangent
+    thin = capstan(pull, turned, friction, bend.radius, stiffness)
     thick = arc_growth(friction, THIN / bend.drum) - friction
-    return -session.record().push_force, thin * float(np.exp(thick * bend.turned))
+    return -session.record().push_force, thin * float(np.exp(thick * turned))
 
 
 def in_balance(record: Record, load: Array, direction: Array) -> tuple[float, float]:

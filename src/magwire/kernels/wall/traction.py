@@ -30,7 +30,7 @@ SLIP, NORMAL, LOAD, SLIDES, SLID, FACTOR = 0, 3, 6, 7, 8, 9
 CONTACT = 10
 SETTLED = 1e-3  # relative change of a normal force at which it is known (P-31)
 SMALL = 1e-3  # of the largest normal force: what is less is known as well as this is
-ALIGNED = 0.9998  # cosine of a turn of the normal, 1.1 degrees, up to which it is known
+TURN = 2e-3  # turn of a normal times its coefficient, at which it is known: it tilts the traction
 
 
 @kernel
@@ -282,7 +282,8 @@ def known(friction, gradient, ahead, held):
         before = friction.load[i, 3]
         if abs(size - before) > SETTLED * max(size, SMALL * largest):
             return False
-        if size > SMALL * largest and dot(n, row(friction.load, i)) < ALIGNED:
+        turn = norm(sub(n, row(friction.load, i)))
+        if size > SMALL * largest and friction.static[i] * friction.factor[i] * turn > TURN:
             return False
         if before > 0.0 and gives_way(friction, ahead, i):
             return False
