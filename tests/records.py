@@ -65,6 +65,7 @@ def records(run: RunInfo, count: int = 73, *, step: float = 1e-3) -> Iterator[Re
             feed=feed,
             position=position,
             flux_density=np.array([0.0, 0.01 * np.sin(80.0 * feed), 0.05 * feed]),
+            inputs=np.array([0.0, 0.01 * np.sin(80.0 * feed), 0.05 * feed]),
             contact_force=wall,
             clearance=clearance,
             clearance_midpoint=float(np.nanmin(clearance)),

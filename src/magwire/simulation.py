@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from magwire.actuate import Actuator
 from magwire.contact import Barrier, Friction
 from magwire.engine.feed import Feed
 from magwire.engine.hold import Hold
@@ -57,6 +58,9 @@ class Simulation:
     friction
         Of the wall; none if left out. An equilibrium is one without friction: with it, it would
         depend on the way there. A quasi-static run, or session, is such a way.
+    actuator
+        What makes a field from the inputs of whoever steers; three components of a uniform flux
+        density [T] if left out.
     damping
         Dissipation mu [1/s] (P-14).
     gravity
@@ -83,6 +87,7 @@ class Simulation:
         field: FieldSource | None = None,
         contact: Barrier | None = None,
         friction: Friction | None = None,
+        actuator: Actuator | None = None,
         damping: float = 0.01,
         gravity: ArrayLike = (0.0, 0.0, 0.0),
         fluid_density: float = 0.0,
@@ -102,6 +107,7 @@ class Simulation:
             release=release,
             background=UniformField() if field is None else field,
             friction=friction,
+            actuator=actuator,
         )
         narrowest = lumen.path().narrowest  # a side branch may be too narrow for the wire
         if narrowest <= self.system.keep_off:
@@ -275,6 +281,7 @@ class Simulation:
         feed: float,
         field: ArrayLike | FieldSource | None = None,
         *,
+        inputs: ArrayLike | None = None,
         start: Equilibrium | None = None,
         twist: float = 0.0,
         hold: Hold | None = None,
@@ -288,6 +295,8 @@ class Simulation:
         field
             Uniform flux density, shape (3,) [T], or a field source; the simulation's own field if
             left out.
+        inputs
+            Of the actuator, shape (m,), on top of the field; zero if left out.
         start
             Equilibrium to start from; where its feed differs, the wire is fed from there by
             equilibria. Left out: the wire laid along the centreline. A wire in a lumen can have
@@ -319,7 +328,9 @@ class Simulation:
         else:
             flux = array("Simulation", "field", field, (3,), "T")
             source = UniformField((float(flux[0]), float(flux[1]), float(flux[2])))
-        return find_equilibrium(self.system, source, feed, start=start, twist=twist, hold=hold)
+        return find_equilibrium(
+            self.system, source, feed, inputs=inputs, start=start, twist=twist, hold=hold
+        )
 
     def tip_arc(self, position: ArrayLike) -> float:
         """How far the tip has come on the way to the lumen's target, an arc parameter [m].
@@ -353,6 +364,7 @@ class Simulation:
             title=title,
             scenario=scenario,
             motion=motion,
+            inputs=self.system.input_names,
         )
 
     def _way(self) -> Array:

@@ -62,7 +62,8 @@ def random_field(rng: np.random.Generator, edges: int, *, uniform: bool) -> Fiel
         gradient=rng.normal(size=(edges, 9)),
         origin=rng.normal(size=(edges, 3)),
         uniform=np.array([uniform]),
-        steered=rng.normal(size=3),
+        sources=(),
+        strength=rng.normal(size=3),
     )
 
 

@@ -13,6 +13,7 @@ from magwire.cli.commands.animate import animate
 from magwire.cli.commands.bench import bench
 from magwire.cli.commands.devices import devices
 from magwire.cli.commands.doctor import doctor
+from magwire.cli.commands.export import export
 from magwire.cli.commands.list import list_scenarios
 from magwire.cli.commands.lumen import lumen
 from magwire.cli.commands.plan import plan_outlets
@@ -23,6 +24,7 @@ from magwire.cli.commands.run import run
 from magwire.cli.commands.schema import schema
 from magwire.cli.commands.sweep import sweep
 from magwire.cli.commands.verify import verify
+from magwire.cli.commands.view import view
 from magwire.cli.words import INTERRUPTED, complain
 from magwire.errors import MagwireError
 from magwire.interrupt import Terminated, end_in_order
@@ -48,6 +50,7 @@ for command in (
     bench,
     devices,
     doctor,
+    export,
     lumen,
     plot,
     replay,
@@ -56,6 +59,7 @@ for command in (
     schema,
     sweep,
     verify,
+    view,
 ):
     app.command(command)
 app.command(list_scenarios, name="list")

@@ -23,8 +23,9 @@ from magwire.kernels.body import Parts, advance, look, make_body, rest, survey
 from magwire.kernels.glance import GLANCE
 from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.history import copy_state
-from magwire.kernels.march import RETRIES, Tally, steer
+from magwire.kernels.march import RETRIES, Tally
 from magwire.kernels.newton import CONVERGED, Limits
+from magwire.kernels.sources.steer import steer
 from magwire.kernels.wall.traction import SLID
 
 Array = NDArray[np.float64]
@@ -66,6 +67,7 @@ class Survey(NamedTuple):
     directors: Array
     twist: float
     rubs: Array
+    made: Array
     push: float
     torque: float
     stable: bool
@@ -79,8 +81,7 @@ class Plant:
     system
         Wire, lumen and wall.
     source
-        The outside field, next to what the inputs make, a uniform flux density of three components
-        [T]; the system's own if left out.
+        The outside field, next to what the actuator makes; the system's own if left out.
     feed, twist
         Of the guide at the start [m, rad].
     tube
@@ -151,7 +152,10 @@ class Plant:
     @inputs.setter
     def inputs(self, inputs: Array) -> None:
         self.state.inputs[:] = inputs
-        steer(self.field, self.state.inputs)
+        self._steer()
+
+    def _steer(self) -> None:
+        steer(self.field.sources, self.state.inputs, self.field.strength)
 
     @property
     def released(self) -> bool:
@@ -223,7 +227,8 @@ class Plant:
             now.gradient.copy(),
             now.origin.copy(),
             now.uniform.copy(),
-            now.steered.copy(),
+            now.sources,
+            now.strength.copy(),
         )
 
     def _take_over(self, now: Field) -> None:
@@ -266,7 +271,7 @@ class Plant:
         self.state.velocity[:] = 0.0
         if not self.source.affine:
             self.sample_again()
-        steer(self.field, self.state.inputs)
+        self._steer()
 
     def snapshot(self) -> Snapshot:
         """What it takes to come back here."""
@@ -282,7 +287,7 @@ class Plant:
             value[:] = kept
         self.time = snapshot.time
         self.status, self.message = Status.CONVERGED, ""
-        steer(self.field, self.state.inputs)
+        self._steer()
 
     @property
     def mouth(self) -> Mouth:
@@ -300,7 +305,7 @@ class Plant:
         forces, directors, rubs = (np.zeros((nodes, 3)) for _ in range(3))
         clearance = np.zeros(nodes)
         found = survey(self._body, forces, clearance, directors, rubs)
-        held, offset, twist, (middle, along, stable) = found
+        held, offset, twist, made, (middle, along, stable) = found
         clearance[: held + 1] = np.nan
         length = system.scales.length
         if math.isnan(offset):
@@ -315,6 +320,7 @@ class Plant:
             directors[1:],
             twist,
             rubs[1:] * system.scales.force,
+            np.array(made),
             push,
             torque,
             bool(stable),
@@ -354,7 +360,8 @@ class Plant:
             time=self.time,
             feed=self.feed,
             position=state.q[1:, :3] * scales.length,
-            flux_density=self.source.at(tip)[0][0] + state.inputs,
+            flux_density=self.source.at(tip)[0][0] + seen.made,
+            inputs=state.inputs.copy(),
             contact_force=seen.forces,
             clearance=seen.clearance,
             clearance_midpoint=seen.middle,

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Motion = Literal["dynamic", "quasi-static"]
 
+UNIFORM_INPUTS = (("Bx", "T"), ("By", "T"), ("Bz", "T"))
+"""Inputs of a field that is uniform: its components."""
 PATCH = 5e-3  # length of wire over which forces are summed or averaged [m]
 EDGES = 2.0  # edges in a patch at least: forces are not known any finer
 
@@ -60,6 +62,8 @@ class RunInfo:
         Title, and the whole scenario as TOML ("" for a run that was set up in Python).
     motion
         How the wire moves: in time, or from one equilibrium to the next.
+    inputs
+        Names and units of the actuator's inputs.
     """
 
     nodes: int
@@ -72,6 +76,7 @@ class RunInfo:
     title: str = ""
     scenario: str = ""
     motion: Motion = "dynamic"
+    inputs: tuple[tuple[str, str], ...] = UNIFORM_INPUTS
 
 
 @dataclass(frozen=True)
@@ -115,6 +120,8 @@ class Record:
         Nodes, proximal first, shape (nodes, 3) [m].
     flux_density
         At the tip, shape (3,) [T].
+    inputs
+        Of the actuator, shape (m,).
     contact_force
         Force of the wall on each node, shape (nodes, 3) [N].
     clearance
@@ -155,6 +162,7 @@ class Record:
     feed: float
     position: Array
     flux_density: Array
+    inputs: Array
     contact_force: Array
     clearance: Array
     clearance_midpoint: float

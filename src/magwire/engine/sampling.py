@@ -16,7 +16,7 @@ DIFFERENCE = 1e-4  # of places, in wire lengths
 
 
 def sample(system: System, source: FieldSource, state: State) -> Field:
-    """Flux density [T] and gradient [T per wire length] at the middle of each edge, not steered."""
+    """Background along the wire, [T] and [T per wire length], and an actuator without inputs."""
     middle = 0.5 * (state.q[1:, :3] + state.q[:-1, :3])
     flux, gradient = source.at(middle * system.wire.length)
     slope = np.array(gradient, dtype=np.float64).reshape(-1, 9) * system.wire.length
@@ -24,8 +24,9 @@ def sample(system: System, source: FieldSource, state: State) -> Field:
         flux_density=np.array(flux, dtype=np.float64),
         gradient=slope,
         origin=middle,
-        uniform=np.array([source.affine and not np.any(slope)]),
-        steered=np.zeros(3),
+        uniform=np.array([not system.sources and source.affine and not np.any(slope)]),
+        sources=system.sources,
+        strength=system.idle_strength.copy(),
     )
 
 

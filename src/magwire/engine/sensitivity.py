@@ -19,11 +19,14 @@ from magwire.errors import one_of
 from magwire.kernels.arrays import Field, Mouth, Work
 from magwire.kernels.assembly import FIRST
 from magwire.kernels.band import WIDTH, factor, solve
+from magwire.kernels.sources.steer import steer
 from magwire.wire import Parameter
 
 Array = NDArray[np.float64]
 Output = Literal["tip", "positions", "tip_direction"]
-Input = Literal["field", "gradient", "feed", "twist", Parameter]
+Input = Literal["field", "inputs", "gradient", "feed", "twist", Parameter]
+
+INPUT_STEP = 1e-5  # of an input, over itself or one, in the difference that stands for its effect
 
 
 def derivative(point: Point, output: Output, wrt: Input) -> Array:
@@ -72,10 +75,13 @@ def _loads(point: Point, wrt: Input) -> tuple[Array, tuple[int, ...], float]:
                     gradient=point.field.gradient + unit.ravel(),
                     origin=middle,
                     uniform=np.array([False]),
-                    steered=point.field.steered,
+                    sources=point.field.sources,
+                    strength=point.field.strength,
                 )
             )
         return _differences(point, fields, work), (3, 3), 1.0 / system.wire.length
+    if wrt == "inputs":
+        return _by_inputs(point, work), (system.inputs,), 1.0
     if wrt != "feed" and wrt != "twist":
         return *parameter_loads(point, wrt, work), 1.0
     band = point.stiffness(work)
@@ -88,6 +94,21 @@ def _loads(point: Point, wrt: Input) -> tuple[Array, tuple[int, ...], float]:
     if system.release == "sliding":
         load += _by_part(point, work) / system.rod.cell[point.mouth.held]
     return load[None], (), system.wire.length
+
+
+def _by_inputs(point: Point, work: Work) -> Array:
+    """Derivative of the gradient by each of the actuator's inputs, from central differences."""
+    field, inputs, rows = point.field, point.state.inputs, []
+    for k in range(len(inputs)):
+        step = INPUT_STEP * max(1.0, abs(inputs[k]))
+        ends = []
+        for sign in (1.0, -1.0):
+            moved, strength = inputs.copy(), field.strength.copy()
+            moved[k] += sign * step
+            steer(field.sources, moved, strength)
+            ends.append(point.gradient(work, field=field._replace(strength=strength)))
+        rows.append((ends[0] - ends[1]) / (2.0 * step))
+    return np.stack(rows)
 
 
 def _here(field: Field, middle: Array) -> Array:

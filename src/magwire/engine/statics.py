@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from magwire.engine.hold import Hold, carry
 from magwire.engine.plant import Plant
@@ -17,7 +17,7 @@ from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.engine.tip import tip_direction
 from magwire.engine.uneven import Settled, settle
-from magwire.errors import ConvergenceError, InputError, finite, within
+from magwire.errors import ConvergenceError, InputError, array, finite, within
 from magwire.field import FieldSource
 from magwire.kernels.arrays import Mouth, State
 from magwire.kernels.guide import find_mouth, place_held
@@ -90,8 +90,9 @@ class Equilibrium:
             ``"tip"``, shape (3,) [m]; ``"positions"``, shape (nodes, 3) [m]; or
             ``"tip_direction"``, shape (3,).
         wrt
-            ``"field"``, shape (3,) [T]; ``"gradient"``, shape (3, 3) [T/m], dB_i/dx_j about the
-            origin; ``"feed"`` [m]; ``"twist"`` [rad]; or a parameter of each section of the wire:
+            ``"field"``, shape (3,) [T]; ``"inputs"`` of the actuator, shape (m,); ``"gradient"``,
+            shape (3, 3) [T/m], dB_i/dx_j about the origin; ``"feed"`` [m]; ``"twist"`` [rad]; or a
+            parameter of each section of the wire:
             ``"youngs_modulus"`` and ``"shear_modulus"``, shape (sections,) [Pa],
             ``"magnetization"``, shape (sections, 3) [A/m], ``"radius"``, shape (sections,) [m], in
             which a bore stays as it is, and so does a stiffness that was given. Each parameter
@@ -119,6 +120,7 @@ def find_equilibrium(
     source: FieldSource,
     feed: float,
     *,
+    inputs: ArrayLike | None = None,
     start: Equilibrium | None = None,
     twist: float = 0.0,
     hold: Hold | None = None,
@@ -133,6 +135,7 @@ def find_equilibrium(
     part = feed / length
     plant = system.idle.pop() if system.idle else Plant(system, source)
     plant.use(source)
+    given = system.idle_inputs if inputs is None else inputs
     state, mouth = plant.state, Mouth(*find_mouth(system.rod, system.guide, part))
     held = mouth.held
     if start is None:
@@ -141,6 +144,7 @@ def find_equilibrium(
         follow(plant, start, part, twist)
     place_held(system.rod, system.guide, state, 0, held, part, twist)
     state.guide[:], state.held[0] = (part, twist), held
+    plant.inputs = array("Simulation", "inputs", given, (system.inputs,))
     done = Settled(plant.field, "", 0, 0.0)
     if hold is not None:
         _check_hold(source, start, feed, system.wire.nodes - held)

@@ -10,8 +10,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.actuate import Actuator
 from magwire.contact import Barrier, Friction
-from magwire.engine.record import Scales, patch_length
+from magwire.engine.record import UNIFORM_INPUTS, Scales, patch_length
 from magwire.engine.wall import Firmness, divide, fit
 from magwire.errors import InputError, array, nonnegative, one_of
 from magwire.field import FieldSource, UniformField
@@ -20,6 +21,8 @@ from magwire.kernels.arrays import Guide, Rod, State, Tube, Wall, Work
 from magwire.kernels.band import HALF_BANDWIDTH, WIDTH
 from magwire.kernels.centreline import LumenArrays
 from magwire.kernels.newton import Limits
+from magwire.kernels.sources.steer import steer
+from magwire.kernels.sources.table import Sources, new_strength
 from magwire.kernels.wall.traction import CONTACT
 from magwire.lumen import Lumen
 from magwire.wire import Mesh, Wire, lay_out
@@ -58,6 +61,8 @@ class System:
         The outside field that is there without any input.
     friction
         Of the wall; none if None.
+    actuator
+        What makes a field from inputs; three components of a uniform flux density [T] if None.
     release
         ``"sliding"``: the bending element at the guide's mouth counts with the part that is past
         the entrance; ``"node"``: node by node, as in the paper (P-15).
@@ -73,6 +78,7 @@ class System:
     tip_load: tuple[float, float, float] = (0.0, 0.0, 0.0)
     background: FieldSource = NO_FIELD
     friction: Friction | None = None
+    actuator: Actuator | None = None
 
     def __post_init__(self) -> None:
         nonnegative("Simulation", "damping", self.damping, "1/s")
@@ -163,6 +169,37 @@ class System:
     def path(self) -> Lumen:
         """The way from the entrance to the lumen's target, as a single tube."""
         return self.lumen.path()
+
+    @cached_property
+    def sources(self) -> tuple[()] | tuple[Sources]:
+        """The actuator for the kernels, in units of the wire's length and tesla."""
+        if self.actuator is None:
+            return ()
+        return (self.actuator.arrays(self.wire.length),)
+
+    @cached_property
+    def idle_strength(self) -> Array:
+        """State of the actuator before anybody sets its inputs."""
+        strength = new_strength(self.sources[0]) if self.sources else np.zeros(3)
+        steer(self.sources, self.idle_inputs, strength)
+        return strength
+
+    @property
+    def idle_inputs(self) -> Array:
+        """Of the actuator before anybody sets them, shape (m,)."""
+        return np.zeros(3) if self.actuator is None else self.actuator.idle
+
+    @property
+    def input_names(self) -> tuple[tuple[str, str], ...]:
+        """Names and units of the actuator's inputs."""
+        if self.actuator is None:
+            return UNIFORM_INPUTS
+        return tuple((one.name, one.unit) for one in self.actuator.inputs)
+
+    @property
+    def inputs(self) -> int:
+        """Number of the actuator's inputs."""
+        return len(self.sources[0].curve) if self.sources else 3
 
     @cached_property
     def path_arrays(self) -> LumenArrays:
@@ -314,7 +351,7 @@ class System:
             velocity=np.zeros((nodes, 4)),
             guide=np.zeros(2),
             held=np.array([nodes - 1]),
-            inputs=np.zeros(3),
+            inputs=self.idle_inputs,
             contact=np.zeros((nodes, CONTACT)),
             spent=np.zeros(1),
         )
@@ -333,6 +370,7 @@ class System:
             spare=self.new_state(),
             ahead=self.new_state(),
             before=self.new_state(),
+            inputs=np.zeros(self.inputs),
             target=np.zeros((nodes, 4)),
         )
 

@@ -107,7 +107,17 @@ def entry(function: Function) -> Function:
     return made
 
 
-def _compiled(function: Function, **more: str) -> Function:
+def summing(function: Function) -> Function:
+    """A kernel that is one long sum, whose terms may be added in any order.
+
+    Only so are several terms taken at once (SIMD): the field of dozens of coils takes a third of
+    the time. Products may be joined to sums without rounding in between; no other liberty is taken
+    with the arithmetic.
+    """
+    return _compiled(function, fastmath={"reassoc", "contract"})
+
+
+def _compiled(function: Function, **more: object) -> Function:
     keep = CACHE is not None
     made: Function = numba.njit(cache=keep, nogil=True, error_model="numpy", _nrt=False, **more)(
         function

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.kernels.centreline import LumenArrays
+from magwire.kernels.sources.table import Sources
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -54,17 +55,20 @@ class Guide(NamedTuple):
 
 
 class Field(NamedTuple):
-    """Field samples of each edge: B_0 [N, 3], gradient [N, 9] by rows, where sampled [N, 3].
+    """Background and actuator (P-7, P-24).
 
-    uniform [1]: whether all gradients are zero; steered [3]: what the actuator's inputs add,
-    everywhere.
+    Samples of the background at each edge: B_0 [N, 3], gradient [N, 9] by rows, where sampled
+    [N, 3]. sources, strength: the actuator, if it is more than three components of a uniform
+    field, and the state that its inputs put it in; see ``sources.table``. uniform [1]: whether
+    neither of the two has a gradient.
     """
 
     flux_density: Array
     gradient: Array
     origin: Array
     uniform: Flag
-    steered: Array
+    sources: tuple[()] | tuple[Sources]
+    strength: Array
 
 
 class Tube(NamedTuple):
@@ -190,7 +194,7 @@ class Work(NamedTuple):
     """Scratch arrays of the solver, allocated once; ``no_band`` has no rows.
 
     way: change of the unknowns in a step whose edges turn, laid out as ``step``. before: state at
-    the start of a step that is cut.
+    the start of a step that is cut. inputs [m]: of the actuator, within a step.
     """
 
     gradient: Array
@@ -202,4 +206,5 @@ class Work(NamedTuple):
     spare: State
     ahead: State
     before: State
+    inputs: Array
     target: Array

@@ -24,8 +24,16 @@ from magwire.kernels.blocks import (
     transpose,
 )
 from magwire.kernels.hinge import hinge, material_frame
-from magwire.kernels.magnetics import force_block, moment_vector, torque_gradient, torque_hessian
+from magwire.kernels.magnetics import (
+    force_block,
+    moment_vector,
+    second_block,
+    torque_gradient,
+    torque_hessian,
+    with_background,
+)
 from magwire.kernels.scatter import add_block, add_column, add_diagonal, add_row, add_vector
+from magwire.kernels.sources.steer import field_of
 from magwire.kernels.stretching import stretching, stretching_hessian
 from magwire.kernels.twisting import twisting_gradient, twisting_hessian
 from magwire.kernels.vectors import add, combine, dot, row, scale, sub
@@ -147,21 +155,17 @@ def add_edges(rod, field, state, mouth, gradient, band):
 
 @part
 def _add_magnet(field, state, j, m, gradient, band, r):
-    """Magnetic energy of one edge in an affine field (P-7); r is the row of its first node."""
+    """Magnetic energy of one edge at its present middle (P-7); r is the row of its first node."""
     t = row(state.tangent, j)
     inv = 1.0 / state.length[j]
     m1, m2 = material_frame(row(state.director, j), t, state.q[j, 3])
-    steered = field.steered
-    b = add(row(field.flux_density, j), (steered[0], steered[1], steered[2]))
-    if not field.uniform[0]:
+    if field.uniform[0]:
+        u = field.strength
+        b = add(row(field.flux_density, j), (u[0], u[1], u[2]))
+    else:
         middle = combine(0.5, row(state.q, j), 0.5, row(state.q, j + 1))
-        away = sub(middle, row(field.origin, j))
-        g = field.gradient[j]
-        b = (
-            b[0] + g[0] * away[0] + g[1] * away[1] + g[2] * away[2],
-            b[1] + g[3] * away[0] + g[4] * away[1] + g[5] * away[2],
-            b[2] + g[6] * away[0] + g[7] * away[1] + g[8] * away[2],
-        )
+        made = field_of(field.sources, field.strength, middle, len(band) > 0)
+        b, g, second = with_background(field, j, middle, made)
         space = moment_vector(m, m1, m2, t)
         pull = (
             -0.5 * (space[0] * g[0] + space[1] * g[3] + space[2] * g[6]),
@@ -171,13 +175,14 @@ def _add_magnet(field, state, j, m, gradient, band, r):
         add_vector(gradient, j, 1.0, pull)
         add_vector(gradient, j + 1, 1.0, pull)
         if len(band) > 0:
-            row_g = (g[0], g[1], g[2], g[3], g[4], g[5], g[6], g[7], g[8])
-            em, theta_m = force_block(m, m1, m2, t, inv, row_g)
+            em, theta_m = force_block(m, m1, m2, t, inv, g)
             half = mat_scale(0.5, em)
             other = transpose(half)
-            add_diagonal(band, r, _minus_sum(half))
-            add_diagonal(band, r + 4, sym_scale(-1.0, _minus_sum(half)))
-            add_block(band, r + 4, r, mat_add(half, mat_scale(-1.0, other)))
+            bent = second_block(space, second)
+            add_diagonal(band, r, sym_add(bent, _minus_sum(half)))
+            add_diagonal(band, r + 4, sym_add(bent, sym_scale(-1.0, _minus_sum(half))))
+            turned = mat_add(half, mat_scale(-1.0, other))
+            add_block(band, r + 4, r, mat_add(full(bent), turned))
             add_row(band, r + 3, r, scale(0.5, theta_m))
             add_column(band, r + 4, r + 3, scale(0.5, theta_m))
     by_edge, by_theta = torque_gradient(m, m1, m2, t, inv, b)

@@ -20,6 +20,7 @@ from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.march import Drive, Tally, march
 from magwire.kernels.newton import Limits, newton
 from magwire.kernels.observe import observe, off_centreline, read_frames
+from magwire.kernels.sources.steer import field_of
 from magwire.kernels.vectors import row
 from magwire.kernels.wall.traction import begin, tractions
 
@@ -77,8 +78,8 @@ def rest(body, limits):
 def survey(body, forces, clearance, directors, rubs):
     """Put what the guide holds in its place and read off what a record holds; see ``observe``.
 
-    Returns the last held node, the tip's distance from the centreline and its twist, and what
-    ``observe`` does.
+    Returns the last held node, the tip's distance from the centreline, its twist and the actuator's
+    flux density there, and what ``observe`` does.
     """
     p = body.parts
     mouth = mouth_of(p.model[0], p.guide, p.state)
@@ -90,7 +91,9 @@ def survey(body, forces, clearance, directors, rubs):
     found = observe(p.model, p.state, mouth, p.work, forces, clearance)
     tip = row(p.state.q, p.state.q.shape[0] - 1)
     twist = read_frames(p.state, directors)
-    return mouth.held, off_centreline(p.path, tip), twist, found
+    field = p.model[1]
+    made = field_of(field.sources, field.strength, tip, False)
+    return mouth.held, off_centreline(p.path, tip), twist, made[0], found
 
 
 @kernel

@@ -12,6 +12,7 @@ from magwire.kernels.band import WIDTH, factor, solve
 from magwire.kernels.hinge import material_frame
 from magwire.kernels.magnetics import torque_gradient
 from magwire.kernels.newton import take_step
+from magwire.kernels.sources.steer import steer
 from magwire.kernels.vectors import row
 from magwire.kernels.wall.push import press_tube
 
@@ -36,7 +37,7 @@ class Linear(NamedTuple):
 
 @part
 def load_of_field(rod, state, held, axis, rows):
-    """Minus the derivative of the gradient by one field component, as rows of the band."""
+    """Minus the derivative of the gradient by one component of a uniform field, as rows."""
     for i in range(len(rows)):
         rows[i] = 0.0
     direction = (1.0 if axis == 0 else 0.0, 1.0 if axis == 1 else 0.0, 1.0 if axis == 2 else 0.0)
@@ -169,10 +170,11 @@ def linearise(model, state, mouth, work, linear):
             for r in range(last + 1):
                 work.step[r] = linear.moves[axis, r] if FIRST <= r < last else 0.0
             take_step(state, work.spare, held, sign * probe, work.step)
-            steered = field.steered[axis]
-            field.steered[axis] += sign * probe
+            for c in range(3):
+                work.inputs[c] = state.inputs[c] + (sign * probe if c == axis else 0.0)
+            steer(field.sources, work.inputs, field.strength)
             assemble(model, work.spare, mouth, still, work.gradient, work.band)
-            field.steered[axis] = steered
+            steer(field.sources, state.inputs, field.strength)
             slope += sign * quotient(work.band, linear.mode, last) / (2.0 * probe)
         linear.slope[axis] = slope
     return value

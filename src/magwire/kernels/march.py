@@ -13,6 +13,7 @@ from magwire.kernels.guide import change_held, find_mouth, place_held
 from magwire.kernels.history import copy_configuration, copy_state
 from magwire.kernels.newton import CONVERGED, TOO_MANY_ITERATIONS, Limits, newton, take_step
 from magwire.kernels.scatter import add_vector
+from magwire.kernels.sources.steer import steer
 from magwire.kernels.vectors import dot, row
 from magwire.kernels.wall.between import press_edge
 from magwire.kernels.wall.collision import allowed_part
@@ -162,13 +163,6 @@ def accept(friction, state, work, dt, end):
     state.guide[0], state.guide[1] = end
 
 
-@kernel
-def steer(field, inputs):
-    """Bring the field to the actuator's inputs."""
-    for c in range(3):
-        field.steered[c] = inputs[c]
-
-
 @part
 def cuts_by_feed(rod, fed):
     """How often a step is cut in half beforehand, so that no part feeds more than an edge."""
@@ -189,6 +183,15 @@ def blend(start, end, share):
 
 
 @kernel
+def differ(a, b):
+    """Whether any of two rows of numbers differ."""
+    for c in range(a.shape[0]):
+        if a[c] != b[c]:
+            return True
+    return False
+
+
+@kernel
 def march(model, guide, state, work, limits, drive, tally):
     """Time steps along a drive, one after the other.
 
@@ -199,7 +202,7 @@ def march(model, guide, state, work, limits, drive, tally):
     arrives here would break the making of any other object.
     """
     field = model[1]
-    steer(field, state.inputs)
+    steer(field.sources, state.inputs, field.strength)
     for k in range(drive.feed.shape[0]):
         entry = state.held[0]
         first = state.guide[0], state.guide[1]
@@ -213,9 +216,11 @@ def march(model, guide, state, work, limits, drive, tally):
             share = 0.5**halvings
             end = blend(first, last, done + share)
             dt = share * drive.time_step
-            for c in range(3):
-                rest = 1.0 - (done + share)
-                field.steered[c] = rest * state.inputs[c] + (done + share) * drive.inputs[k, c]
+            if differ(state.inputs, drive.inputs[k]):
+                for c in range(state.inputs.shape[0]):
+                    rest = 1.0 - (done + share)
+                    work.inputs[c] = rest * state.inputs[c] + (done + share) * drive.inputs[k, c]
+                steer(field.sources, work.inputs, field.strength)
             outcome = time_step(
                 model, guide, state, work, limits, slides, blend(first, last, done), end, dt, drive
             )
@@ -228,7 +233,7 @@ def march(model, guide, state, work, limits, drive, tally):
                 if slides and halvings == begun + RETRIES:
                     copy_state(work.before, state)
                     state.held[0] = entry
-                    steer(field, state.inputs)
+                    steer(field.sources, state.inputs, field.strength)
                     return k, status
                 if slides or halvings < begun + COARSE:
                     halvings += 1

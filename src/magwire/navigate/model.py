@@ -94,6 +94,11 @@ class Model:
     def __init__(self, system: System, path: Lumen, tube_radius: float | None = None) -> None:
         if not system.scales.flux_density > 0.0:
             raise InputError("Input wire of a navigator must be magnetised; received none.")
+        if system.actuator is not None:
+            raise InputError(
+                "Input actuator of a navigator's system must be left out: it steers by a uniform "
+                f"field; received {system.actuator!r}."
+            )
         if not system.background.affine:
             raise InputError(
                 "Input field of a navigator's system must be uniform or linear in space; received "

@@ -84,6 +84,12 @@ VARIABLES: dict[str, Variable] = {
         ("time", "node", "xyz"), "m", "positions of the nodes", lambda r, _: r.position
     ),
     "field": Variable(("time", "xyz"), "T", "flux density at the tip", lambda r, _: r.flux_density),
+    "inputs": Variable(
+        ("time", "input"),
+        "see the attribute input_units",
+        "inputs of the actuator, by the attribute input_names",
+        lambda r, _: r.inputs,
+    ),
     "contact_force": Variable(
         ("time", "node", "xyz"), "N", "force of the wall on the wire", lambda r, _: r.contact_force
     ),
@@ -264,6 +270,7 @@ def sizes(info: RunInfo, layout: Layout) -> dict[str, int]:
     return {
         "node": info.nodes,
         "xyz": 3,
+        "input": len(info.inputs),
         "arc": len(layout.arc),
         "centreline_point": len(info.lumen_radius),
     }
@@ -307,6 +314,8 @@ def opening_attributes(info: RunInfo, layout: Layout, version: str) -> dict[str,
         **provenance.attributes(),
         "scenario": info.scenario,
         "motion": info.motion,
+        "input_names": " ".join(name for name, _ in info.inputs),
+        "input_units": " ".join(unit for _, unit in info.inputs),
         "length_scale": float(info.scales.length),
         "force_scale": float(info.scales.force),
         "field_scale": float(info.scales.flux_density),

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
+    from magwire.view import Page
+
 Array = NDArray[np.float64]
 FILE = "result.nc"
 
@@ -93,6 +95,26 @@ class Result:
             with successor(Path(path)) as draft:
                 figure.savefig(draft)
         return figure
+
+    def view(self, other: Result | None = None) -> Page:
+        """A page that replays the run in a browser: wire, lumen, field, forces and curves.
+
+        Notebooks show it; ``result.view().save("page.html")`` writes it as one file.
+
+        Parameters
+        ----------
+        other
+            A second result, to be shown beside this one.
+
+        Raises
+        ------
+        InputError
+            If a result has no records.
+        """
+        from magwire.view import page
+
+        runs = [self] if other is None else [self, other]
+        return page([("result", run.dataset) for run in runs])
 
     @property
     def status(self) -> str:

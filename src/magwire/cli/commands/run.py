@@ -33,6 +33,7 @@ def run(
     overrides: Overrides = None,
     out: Path | None = None,
     compare: Literal["none"] | None = None,
+    no_figure: Flag = False,
     force: Flag = False,
 ) -> int:
     """Run a scenario: result, summary and figure.
@@ -47,6 +48,8 @@ def run(
         Folder for the output; NAME-result in the working folder if left out.
     compare
         Run the scenario without steering, too, and show both.
+    no_figure
+        Draw none: it takes longer than a short run. 'magwire plot' draws it any time.
     force
         Overwrite what a former run left in the folder.
     """
@@ -58,11 +61,18 @@ def run(
             "Option --compare none needs a scenario that is steered; navigate.method is 'none'."
         )
     folder = out or Path(f"{Path(scenario).stem}-result")
-    return carry_out(described, folder, compare=compare is not None, force=force)
+    return carry_out(
+        described, folder, compare=compare is not None, draw=not no_figure, force=force
+    )
 
 
 def carry_out(
-    described: Scenario, folder: Path, *, compare: bool = False, force: bool = False
+    described: Scenario,
+    folder: Path,
+    *,
+    compare: bool = False,
+    draw: bool = True,
+    force: bool = False,
 ) -> int:
     """Run a scenario and leave all that comes of it in a folder; the exit status."""
     check_free(folder, force=force)
@@ -77,10 +87,12 @@ def carry_out(
         results = [simulate(job, folder / RESULT)]
         if compare and results[0] is not None and results[0].status != "interrupted":
             results.append(simulate(described.unsteered().build(), folder / PASSIVE))
-        return _report(described, job.simulation.system.wire, folder, results)
+        return _report(described, job.simulation.system.wire, folder, results, draw=draw)
 
 
-def _report(described: Scenario, wire: Wire, folder: Path, results: list[Result | None]) -> int:
+def _report(
+    described: Scenario, wire: Wire, folder: Path, results: list[Result | None], *, draw: bool
+) -> int:
     """Say how the runs ended and draw them; the exit status."""
     result, *others = results
     if result is None:
@@ -105,7 +117,7 @@ def _report(described: Scenario, wire: Wire, folder: Path, results: list[Result 
     status = max(outcome(run) for run in results)
     if status == INTERRUPTED:  # whoever interrupts does not want to wait
         complain(f"No figure is drawn; 'magwire plot {folder}' draws what there is.")
-    else:
+    elif draw:
         from magwire import plot as pictures
 
         with writing_to(folder):

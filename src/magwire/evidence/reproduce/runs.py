@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 from magwire.evidence.reproduce.outcome import Outcome
 
 if TYPE_CHECKING:
-    from magwire.navigate import Navigator, Observation, Schedule
+    from magwire.navigate import Navigator, Observation
+    from magwire.navigate.navigator import Course
     from magwire.results import Result
 
 METHODS = ("stable", "newton", "paper")
@@ -110,7 +111,7 @@ class Timed:
         self.navigator = navigator
         self.plans: list[float] = []
 
-    def plan(self, observation: Observation, until: float) -> Schedule:
+    def plan(self, observation: Observation, until: float) -> Course:
         """The navigator's plan; see ``Navigator.plan``."""
         begin = time.perf_counter()
         schedule = self.navigator.plan(observation, until)

@@ -1,0 +1,40 @@
+"""Actuators: coils and magnets with their inputs and limits (P-24 to P-28)."""
+
+from magwire.actuate.actuator import Actuator
+from magwire.actuate.coils import Coil, Helmholtz, Loops, Maxwell, Pair
+from magwire.actuate.extremes import Extremes, extremes
+from magwire.actuate.grids import FieldGrid
+from magwire.actuate.inputs import Box, Circuit, Input
+from magwire.actuate.magnet import Magnet
+from magwire.actuate.map import Map
+from magwire.actuate.mpem import MPEM
+from magwire.actuate.omnimagnet import Omnimagnet
+from magwire.actuate.pose import Pose
+from magwire.actuate.tables import Saturation
+from magwire.actuate.together import Held, Together
+from magwire.actuate.uniform import Uniform, UniformGradient
+
+__all__ = [
+    "MPEM",
+    "Actuator",
+    "Box",
+    "Circuit",
+    "Coil",
+    "Extremes",
+    "FieldGrid",
+    "Held",
+    "Helmholtz",
+    "Input",
+    "Loops",
+    "Magnet",
+    "Map",
+    "Maxwell",
+    "Omnimagnet",
+    "Pair",
+    "Pose",
+    "Saturation",
+    "Together",
+    "Uniform",
+    "UniformGradient",
+    "extremes",
+]

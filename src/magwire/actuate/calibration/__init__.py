@@ -1,0 +1,1 @@
+"""Files of electromagnetic systems: sources, limits and saturation."""
