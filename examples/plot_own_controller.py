@@ -55,9 +55,11 @@ def push(steered):
     return np.array(rows).T
 
 
+largest = {}
 for steered, colour in ((False, "tab:grey"), (True, "tab:blue")):
     feed, tip, wall = push(steered)
     name = "steered" if steered else "pushed"
+    largest[name] = tip.max()
     plt.plot(1e3 * feed, 1e3 * tip, color=colour, label=f"{name}: tip")
     plt.plot(1e3 * feed, 1e3 * wall, color=colour, linestyle=":", label=f"{name}: wire")
     print(

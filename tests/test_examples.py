@@ -43,6 +43,10 @@ def friction_in_a_spiral(names: Names) -> None:
     assert 0.5 < names["share"] < 1.0
 
 
+def own_controller(names: Names) -> None:
+    assert names["largest"]["steered"] < 0.5 * names["largest"]["pushed"]
+
+
 def coronary_tree(names: Names) -> None:
     assert list(names["vessel"].tubes) == ["end-2", "end-3", "end-4", "end-5", "end-6"]
     assert names["lumen"].length == pytest.approx(0.135, abs=0.003)
@@ -85,6 +89,7 @@ CHECKS: dict[str, Callable[[Names], None]] = {
     "score_policies": score_policies,
     "train_policy": train_policy,
     "plot_friction_in_a_spiral": friction_in_a_spiral,
+    "plot_own_controller": own_controller,
 }
 
 

@@ -136,7 +136,8 @@ def test_messages_and_schema_know_the_new_kinds(folder: Path) -> None:
     faults, (fields, shapes) = json.loads(seen.stdout)
     assert faults == {
         "steered": [
-            "Input field.kind must be 'uniform' for navigate.method 'stable'; received 'dipole'."
+            "Input field.kind must be linear in space, such as 'uniform' or 'gradient', for "
+            "navigate.method 'stable'; received 'dipole'."
         ],
         "misspelt": [
             "Input field.kind must be one of 'uniform', 'gradient', 'dipole'; received 'dipol', "

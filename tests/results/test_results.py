@@ -38,7 +38,7 @@ def test_file_has_the_contract(tmp_path: Path) -> None:
             assert data[name].dims == variable.dims
             assert data[name].attrs["units"] == variable.units
             assert data[name].attrs["long_name"] == variable.long_name
-        lengths = {"time": 73, "node": 20, "xyz": 3, "arc": 38, "centreline_point": 60}
+        lengths = {"time": 73, "node": 20, "xyz": 3, "input": 3, "arc": 38, "centreline_point": 60}
         assert data.sizes == lengths
         assert data.attrs["status"] == "complete"
         assert data.attrs["title"] == "Half-circle"

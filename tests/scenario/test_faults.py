@@ -398,12 +398,6 @@ FAULTS = (
         "received none.",
     ),
     Fault(
-        "steering in another field",
-        (*STABLE, "field.flux_density=['0 mT', '1 mT', '0 mT']"),
-        "Input field.flux_density must be zero for navigate.method 'stable', which knows of no "
-        "field but its own; received 0 mT, 1 mT, 0 mT.",
-    ),
-    Fault(
         "schedule without a file",
         (SCHEDULE,),
         "Input navigate.file is missing; expected a schedule as CSV file or a result file.",

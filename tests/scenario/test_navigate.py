@@ -231,3 +231,13 @@ def test_a_run_with_the_virtual_tube_in_the_navigators_model_only() -> None:
     assert result.status == "complete"
     assert result.max_tip_force == 0.0
     assert result.largest_tip_offset < 0.1 * 3e-3
+
+
+def test_steering_knows_the_field_that_is_there() -> None:
+    """Next to a background the tip stays as free as without it."""
+    keys = ["feed.distance=12 mm", "solver.time_step=100 ms", "navigate.method=stable"]
+    keys += ["field.flux_density=['0 mT', '-5 mT', '0 mT']"]
+    result = load("half-circle", keys).run()
+    assert result.status == "complete"
+    assert result.max_tip_force == 0.0
+    assert result.dataset["field"].values[0].tolist() == [0.0, -5e-3, 0.0]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from magwire.scenario.kind import FAMILIES, Faults, KindTable
-from magwire.scenario.kinds.field.uniform import UniformFieldTable
 from magwire.scenario.kinds.navigate import ModelSteering
 from magwire.scenario.model import Scenario
 from magwire.scenario.quantity import SLACK
@@ -83,20 +82,13 @@ def magnet_to_steer(scenario: Scenario) -> Faults:
 
 
 def field_to_steer(scenario: Scenario) -> Faults:
-    """The navigator's model knows of no field but its own."""
-    if not isinstance(scenario.navigate, ModelSteering):
+    """The navigator's model samples the outside field once: it is linear in space."""
+    if not isinstance(scenario.navigate, ModelSteering) or any(scenario.field.clashes()):
         return
-    source, method = scenario.field, scenario.navigate.method
-    if not isinstance(source, UniformFieldTable):
+    if not scenario.field.build().affine:
         yield (
-            f"Input field.kind must be 'uniform' for navigate.method '{method}'; "
-            f"received '{source.kind}'."
-        )
-    elif any(source.flux_density):
-        given = ", ".join(show(component, "flux_density") for component in source.flux_density)
-        yield (
-            f"Input field.flux_density must be zero for navigate.method '{method}', which knows of "
-            f"no field but its own; received {given}."
+            "Input field.kind must be linear in space, such as 'uniform' or 'gradient', for "
+            f"navigate.method '{scenario.navigate.method}'; received '{scenario.field.kind}'."
         )
 
 
