@@ -66,9 +66,9 @@ FAULTS = (
     ),
     Fault(
         "unknown key",
-        ("contact.friction=0.1",),
-        "Input contact.friction is not a key of [contact]; expected one of 'stiffness', "
-        "'activation_gap', 'wall'.",
+        ("contact.slipperiness=0.1",),
+        "Input contact.slipperiness is not a key of [contact]; expected one of 'stiffness', "
+        "'activation_gap', 'wall', 'friction'.",
     ),
     Fault(
         "key of another shape",
