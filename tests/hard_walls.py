@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import magwire as mw
+from magwire.evidence.verify.references import pushed
 from magwire.results import Result
-from magwire.verify.references import pushed
 from tables import hard_wall
 from wires import paper_wire
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.published import curve
+from magwire.evidence.published import curve
 
 DATA = Path(__file__).parent / "data"
 Array = NDArray[np.float64]

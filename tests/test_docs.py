@@ -230,7 +230,7 @@ def test_citation_and_changelog_carry_the_version() -> None:
 
 
 def test_reproduce_page_names_every_part() -> None:
-    from magwire.reproduce.report import PARTS
+    from magwire.evidence.reproduce.report import PARTS
 
     text = (ROOT / "docs" / "reproduce.md").read_text(encoding="utf-8")
     named = re.findall(r"`([a-z-]+)`", " ".join(re.findall(r"^\| (`.*?) \|", text, re.MULTILINE)))

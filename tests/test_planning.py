@@ -12,7 +12,7 @@ import pytest
 
 import magwire as mw
 from magwire.cli import main
-from magwire.plan_commands import _wire
+from magwire.cli.errand import _wire
 from magwire.planning import firm_wall, fitted
 from magwire.plot import prospects as maps
 from magwire.scenario import load
@@ -239,7 +239,7 @@ def test_command_on_some_outlets_says_each_as_it_is_done(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     import vessel_files
-    from magwire import plan_commands
+    from magwire.cli import errand
 
     file, out = tmp_path / "fork.vtp", tmp_path / "out"
     file.write_bytes(vessel_files.vtp())
@@ -252,7 +252,7 @@ def test_command_on_some_outlets_says_each_as_it_is_done(
         seen.append((capsys.readouterr().out, done))
         return [replace(ahead, outlet=name) for name in outlets]
 
-    monkeypatch.setattr(plan_commands, "plan", planned)
+    monkeypatch.setattr(errand, "plan", planned)
     words = ["plan", str(file), "--units", "mm", "--wire", "1 mm", "--out", str(out)]
     targets = ["--target", "end-3", "--target", "2", "--entrance", "-0.1 mm, 0 mm, 0 mm"]
     assert main([*words, *targets, "--smoothing", "0.4", "--radius", "Radius"]) == 0

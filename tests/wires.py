@@ -12,11 +12,11 @@ from magwire.contact import Barrier
 from magwire.engine.feed import Feed
 from magwire.engine.record import Totals
 from magwire.engine.system import System
+from magwire.evidence.verify.wires import L, flux, free, magnet  # noqa: F401 - tests have them from here
 from magwire.field import UniformField
 from magwire.lumen import Lumen
 from magwire.operate import March
 from magwire.simulation import Simulation
-from magwire.verify.wires import L, flux, free, magnet  # noqa: F401 - tests have them from here
 from magwire.wire import Wire
 
 Array = NDArray[np.float64]

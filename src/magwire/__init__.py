@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from magwire.navigate import Prescribed as Prescribed
     from magwire.navigate import Schedule as Schedule
     from magwire.navigate import Steering as Steering
+    from magwire.navigate.allocation import Allocated as Allocated
     from magwire.navigate.demands import Demands as Demands
     from magwire.navigate.stable import StableNavigator as StableNavigator
     from magwire.navigate.tip import TipNavigator as TipNavigator
@@ -61,6 +62,7 @@ if TYPE_CHECKING:
     __version__: str
 
 _HOMES: dict[str, tuple[str, str]] = {
+    "Allocated": ("magwire.navigate.allocation", "Allocated"),
     "Barrier": ("magwire.contact", "Barrier"),
     "Command": ("magwire.engine.command", "Command"),
     "ConvergenceError": ("magwire.errors", "ConvergenceError"),
@@ -111,6 +113,7 @@ _HOMES: dict[str, tuple[str, str]] = {
 }
 
 __all__ = [
+    "Allocated",
     "Barrier",
     "Command",
     "ConvergenceError",

@@ -6,7 +6,7 @@ import csv
 import sys
 from pathlib import Path
 
-from magwire.verify.references.pushed import CASES, COLUMNS, curve
+from magwire.evidence.verify.references.pushed import CASES, COLUMNS, curve
 
 DATA = Path(__file__).parents[1] / "data" / "hard_wall"
 LINKS = 800

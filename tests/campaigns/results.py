@@ -18,8 +18,9 @@ def reading(path: Path, draw: bool) -> Callable[[], int]:
     """All that reads a result: summary, schedule, replay and, if asked for, the figure."""
 
     def act() -> int:
-        from magwire import plot, summary
+        from magwire import plot
         from magwire.errors import MagwireError
+        from magwire.report import run as summary
         from magwire.results import Result
         from magwire.scenario.schedules import replayed
 

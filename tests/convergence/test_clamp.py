@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from magwire.verify.wires import order
+from magwire.evidence.verify.wires import order
 from tables import closed_form
 from wires import L, flux, free, magnet
 

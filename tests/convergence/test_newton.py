@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from magwire.contact import Barrier
 from magwire.engine.statics import Equilibrium
+from magwire.evidence.verify.wires import order
 from magwire.kernels.arrays import Motion
 from magwire.kernels.newton import Limits, newton
 from magwire.simulation import Simulation
-from magwire.verify.wires import order
 from tangent import copy
 from wires import L, flux, free, lumen, magnet, paper_wire
 

@@ -9,11 +9,11 @@ from scipy.linalg import eigh
 
 from magwire.engine.sampling import sample
 from magwire.engine.statics import Equilibrium
+from magwire.evidence.verify.wires import order
 from magwire.field import UniformField
 from magwire.kernels.arrays import State
 from magwire.kernels.frames import update_frames
 from magwire.kernels.march import Drive, Tally, march
-from magwire.verify.wires import order
 from tangent import copy, free_rows, mass, stiffness
 from wires import L, flux, free, magnet
 

@@ -11,9 +11,9 @@ import pytest
 from numpy.typing import NDArray
 
 from magwire.engine.statics import Equilibrium
+from magwire.evidence.verify.references.pendulum import under_force
+from magwire.evidence.verify.wires import order
 from magwire.field import GradientField
-from magwire.verify.references.pendulum import under_force
-from magwire.verify.wires import order
 from magwire.wire import Section, Wire
 from tables import closed_form
 from wires import L, free

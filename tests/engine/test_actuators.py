@@ -8,9 +8,9 @@ import pytest
 import magwire as mw
 from kernels.rods import Case, derivatives, difference_quotients, random_case
 from magwire.actuate import Coil, Helmholtz, Loops, Magnet, Pair, UniformGradient
+from magwire.evidence.verify.references.dipole import Dipole
 from magwire.kernels.sources.steer import steer
 from magwire.kernels.sources.table import new_strength
-from magwire.verify.references.dipole import Dipole
 
 L = 0.05
 

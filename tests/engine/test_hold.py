@@ -7,7 +7,7 @@ import pytest
 
 import magwire as mw
 from magwire.errors import InputError
-from magwire.verify.references import twisted
+from magwire.evidence.verify.references import twisted
 from wires import L, flux, free, magnet
 
 

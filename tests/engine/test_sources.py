@@ -10,10 +10,10 @@ import pytest
 from magwire.engine.feed import Feed
 from magwire.engine.statics import Equilibrium
 from magwire.errors import ConvergenceError
+from magwire.evidence.verify.references.dipole import Dipole
 from magwire.field import FieldSource, GradientField, UniformField
 from magwire.kernels.hinge import material_frame
 from magwire.operate import March
-from magwire.verify.references.dipole import Dipole
 from magwire.wire import Wire, lay_out
 from wires import L, free, paper_wire
 

@@ -9,10 +9,10 @@ from scipy.optimize import brentq
 
 import magwire as mw
 from magwire.engine.system import System
+from magwire.evidence.verify.wires import order
 from magwire.field import UniformField
 from magwire.lumen import Lumen
 from magwire.operate import March
-from magwire.verify.wires import order
 from wires import L, flux, free, magnet
 
 SIZES = (21, 41, 81, 161)

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from magwire.bench.page import load, text
-from magwire.bench.repeats import exponent, interleaved, least, median
 from magwire.cli import main
+from magwire.evidence.bench.page import load, text
+from magwire.evidence.bench.repeats import exponent, interleaved, least, median
 
 ROOT = Path(__file__).parents[2]
 TABLES = ("1  Time step by case", "2  Against the number of nodes", "3  Against the number of")

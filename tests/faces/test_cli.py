@@ -104,6 +104,13 @@ def test_wrong_words_are_one_line_on_stderr(
     assert files_in(folder) == []
 
 
+def test_a_run_without_a_figure_leaves_the_rest(folder: Path) -> None:
+    assert main(["run", "half-circle", *SHORT, "--out", "plain", "--no-figure"]) == 0
+    assert files_in(folder / "plain") == ["result.nc", "scenario.toml"]
+    assert main(["plot", "plain"]) == 0
+    assert files_in(folder / "plain") == FILES
+
+
 def test_run_leaves_four_files(finished: Path) -> None:
     assert files_in(finished) == FILES
     result = Result.load(finished)

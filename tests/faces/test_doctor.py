@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from magwire import health
 from magwire.cli import main
+from magwire.report import health
 
 
 def test_doctor_says_what_there_is_and_that_it_is_right(

@@ -12,9 +12,9 @@ import pytest
 
 from magwire import plot
 from magwire.cli import main
+from magwire.report.run import gains, lines
 from magwire.results import Result
 from magwire.scenario import load, read_schedule
-from magwire.summary import gains, lines
 
 STEERED = ("--set", "feed.distance=16 mm", "solver.time_step=100 ms", "wire.nodes=40")
 STEERED += ("navigate.update_every=1 mm", "navigate.plan_every=1 mm")

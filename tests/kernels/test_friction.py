@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from magwire.evidence.verify.references.sliding import slider
 from magwire.kernels.wall.friction import (
     along_wall,
     by_turning,
@@ -18,7 +19,6 @@ from magwire.kernels.wall.friction import (
     transported,
     under_load,
 )
-from magwire.verify.references.sliding import slider
 
 Array = NDArray[np.float64]
 RNG = np.random.default_rng(17)

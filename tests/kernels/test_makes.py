@@ -14,7 +14,7 @@ from scipy.integrate import quad
 
 import magwire as mw
 from magwire.errors import InputError
-from magwire.verify.wires import order
+from magwire.evidence.verify.wires import order
 from magwire.wire import Make, Section, Stiffness, Wire, lay_out
 
 NITINOL: dict[str, Any] = {

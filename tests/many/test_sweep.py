@@ -159,8 +159,8 @@ def test_ranges_may_say_how_a_file_is_read(tmp_path: Path) -> None:
 
 
 def test_only_complete_runs_count_as_clear(tmp_path: Path) -> None:
-    from magwire.many.sweeping import lines
     from magwire.many.table import blank
+    from magwire.report.sweep import lines
 
     table = blank(read(written(tmp_path)))
     table["tip_contact_free"].values[:] = [1.0, 1.0, 0.0]

@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 
 from magwire.contact import Barrier
 from magwire.engine.statics import Equilibrium
+from magwire.evidence.verify.wires import guide_load as scaled_guide_load
 from magwire.field import FieldSource, GradientField, UniformField
 from magwire.kernels.hinge import material_frame
 from magwire.lumen import Lumen
 from magwire.simulation import Simulation
-from magwire.verify.wires import guide_load as scaled_guide_load
 from magwire.wire import Wire, lay_out
 from wires import L, lumen
 

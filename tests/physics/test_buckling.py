@@ -8,11 +8,11 @@ import pytest
 from magwire.contact import Barrier
 from magwire.engine.sampling import sample
 from magwire.engine.system import System
+from magwire.evidence.verify.wires import critical
 from magwire.field import UniformField
 from magwire.kernels.arrays import Motion, Mouth
 from magwire.kernels.assembly import assemble
 from magwire.lumen import Lumen
-from magwire.verify.wires import critical
 from tables import closed_form, critical_load
 from wires import L, flux, free, magnet
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from magwire.reproduce.outcome import Outcome
+from magwire.evidence.reproduce.outcome import Outcome
 
 UNIT = 3.054e-5
 PUSH = np.linspace(0.0, 0.72, 721)

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from magwire.reproduce import active_claims, passive_claims, setup_claims, speed_claims
-from magwire.reproduce.claim import judged, percent
+from magwire.evidence.reproduce import active_claims, passive_claims, setup_claims, speed_claims
+from magwire.evidence.reproduce.claim import judged, percent
 from reproduce.made import PUSH, outcome, stopped
 
 

@@ -10,11 +10,11 @@ from pathlib import Path
 import pytest
 
 from magwire.cli import main
-from magwire.reproduce import report, runs, tables
-from magwire.reproduce.chapter import Chapter
-from magwire.reproduce.claim import Claim
-from magwire.reproduce.page import Heading, Picture, claims_table, to_html, to_markdown
-from magwire.reproduce.runs import REPLAYS, Ask, Replay, Run, Runs
+from magwire.evidence.reproduce import report, runs, tables
+from magwire.evidence.reproduce.chapter import Chapter
+from magwire.evidence.reproduce.claim import Claim
+from magwire.evidence.reproduce.page import Heading, Picture, claims_table, to_html, to_markdown
+from magwire.evidence.reproduce.runs import REPLAYS, Ask, Replay, Run, Runs
 from magwire.results import Result, Writer
 from records import helix, info, records
 from reproduce.made import UNIT, outcome, stopped

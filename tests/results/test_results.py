@@ -13,9 +13,9 @@ import pytest
 import xarray as xr
 
 from magwire.errors import InputError, ResultError
+from magwire.report.run import lines
 from magwire.results import Result, Writer
 from magwire.results.contract import CONSTANTS, DERIVED, VARIABLES
-from magwire.summary import lines
 from records import info, records
 
 TESTS = Path(__file__).parents[1]

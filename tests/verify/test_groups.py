@@ -10,10 +10,10 @@ from typing import Any
 import pytest
 
 from magwire.engine import system
-from magwire.verify import engines
-from magwire.verify.evidence import Line, Skipped, Verdict
-from magwire.verify.report import GROUPS, Entry, gather
-from magwire.verify.rig import Rig
+from magwire.evidence.verify import engines
+from magwire.evidence.verify.evidence import Line, Skipped, Verdict
+from magwire.evidence.verify.report import GROUPS, Entry, gather
+from magwire.evidence.verify.rig import Rig
 from magwire.wire import Mesh, Wire
 
 
@@ -89,7 +89,7 @@ def test_a_few_percent_off_are_found_out(
 
     monkeypatch.setattr(system, "lay_out", off)
     missing = set(caught)
-    for piece in import_module(f"magwire.verify.{name}").evidence(False):
+    for piece in import_module(f"magwire.evidence.verify.{name}").evidence(False):
         if isinstance(piece, Skipped):
             pytest.skip(piece.reason)
         if isinstance(piece, Line) and not piece.passed:

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 
-from magwire.verify.references import columns, kirchhoff, pendulum, planar, twisted
+from magwire.evidence.verify.references import columns, kirchhoff, pendulum, planar, twisted
 from tables import closed_form, critical_load
 
 Array = NDArray[np.float64]

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from magwire.verify.mujoco_rod import _couples
-from magwire.verify.references import chain, hard_contact, pendulum, tube, vibration
+from magwire.evidence.verify.mujoco_rod import _couples
+from magwire.evidence.verify.references import chain, hard_contact, pendulum, tube, vibration
 from tables import closed_form
 
 Array = NDArray[np.float64]

@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 
-from magwire.verify.references.sliding import (
+from magwire.evidence.verify.references.sliding import (
     arc_growth,
     capstan,
     locked_up,

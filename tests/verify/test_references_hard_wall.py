@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from magwire.verify.references import hard_contact, hard_wall, passages, pushed
+from magwire.evidence.verify.references import hard_contact, hard_wall, passages, pushed
 from tables import hard_wall as table
 
 Array = NDArray[np.float64]

@@ -15,9 +15,9 @@ import pytest
 
 from magwire import cli
 from magwire.errors import InputError
-from magwire.verify import report
-from magwire.verify.evidence import Curve, Line, Raised, Skipped
-from magwire.verify.page import to_html
+from magwire.evidence.verify import report
+from magwire.evidence.verify.evidence import Curve, Line, Raised, Skipped
+from magwire.evidence.verify.page import to_html
 
 GOOD = Line("twist", "a case", "angle", "rad", 2.0, "a <book>", 2.001, 1e-2)
 BAD = replace(GOOD, case="another case", value=2.1)
@@ -75,7 +75,7 @@ def give(monkeypatch: pytest.MonkeyPatch, *pieces: object) -> None:
                 raise piece
             yield piece
 
-    modules = {f"magwire.verify.{name}": SimpleNamespace(evidence=evidence) for name in
+    modules = {f"magwire.evidence.verify.{name}": SimpleNamespace(evidence=evidence) for name in
                ("twist", "contact")}  # fmt: skip
     monkeypatch.setattr(report, "import_module", modules.__getitem__)
 

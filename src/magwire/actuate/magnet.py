@@ -85,6 +85,33 @@ class Magnet(Actuator):
         shape = None if self.length is None else (self.radius, 0.5 * self.length)
         desk.magnet(moment, shape, self.remanence)
 
+    def aimed(self, u: ArrayLike, place: ArrayLike, flux: ArrayLike) -> np.ndarray:
+        """Inputs that make a flux density at a place as a dipole would, on the line to the magnet.
+
+        A dipole m makes 2 m along the line from it and -m across, over the distance cubed; so that
+        of b is b/2 along and -b across.
+
+        Parameters
+        ----------
+        u
+            Inputs whose position gives the line, shape (6,).
+        place, flux
+            Shape (3,) [m] and (3,) [T].
+        """
+        where, values = self._checked(np.reshape(place, (1, 3)), u)
+        wanted = self.pose.matrix.T @ np.asarray(flux, dtype=np.float64)
+        line = _unit(values[:3] - self.pose.own(where)[0])
+        along = (wanted @ line) * line
+        moment = 0.5 * along - (wanted - along)
+        length = 4.0 / 3.0 * self.radius if self.length is None else self.length
+        volume = np.pi * self.radius**2 * length
+        strength = self.remanence * volume / (4.0 * np.pi)
+        distance = (strength / np.linalg.norm(moment)) ** (1.0 / 3.0)
+        found: np.ndarray = np.concatenate(
+            (self.pose.own(where)[0] + distance * line, _unit(moment))
+        )
+        return found
+
     def distance(self, u: ArrayLike, points: ArrayLike) -> np.ndarray:
         """Distance of points, shape (n, 3) [m], from the magnet's surface at inputs ``u`` [m].
 

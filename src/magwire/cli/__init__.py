@@ -9,17 +9,22 @@ from collections.abc import Sequence
 from cyclopts import App, CycloptsError
 
 import magwire
-from magwire.cli.benchmarks import bench
-from magwire.cli.devices import devices
-from magwire.cli.evidence import reproduce, verify
-from magwire.cli.exports import export
-from magwire.cli.health import doctor
-from magwire.cli.outlets import plan_outlets
-from magwire.cli.pictures import animate, plot, view
-from magwire.cli.running import replay, run
-from magwire.cli.scenarios import list_scenarios, schema
-from magwire.cli.sweeps import sweep
-from magwire.cli.vessels import lumen
+from magwire.cli.commands.animate import animate
+from magwire.cli.commands.bench import bench
+from magwire.cli.commands.devices import devices
+from magwire.cli.commands.doctor import doctor
+from magwire.cli.commands.export import export
+from magwire.cli.commands.list import list_scenarios
+from magwire.cli.commands.lumen import lumen
+from magwire.cli.commands.plan import plan_outlets
+from magwire.cli.commands.plot import plot
+from magwire.cli.commands.replay import replay
+from magwire.cli.commands.reproduce import reproduce
+from magwire.cli.commands.run import run
+from magwire.cli.commands.schema import schema
+from magwire.cli.commands.sweep import sweep
+from magwire.cli.commands.verify import verify
+from magwire.cli.commands.view import view
 from magwire.cli.words import INTERRUPTED, complain
 from magwire.errors import MagwireError
 from magwire.interrupt import Terminated, end_in_order

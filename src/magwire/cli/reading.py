@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import Parameter
 
 from magwire.cli.words import CommandError
+from magwire.units import DIMENSIONS, parse
 
 if TYPE_CHECKING:
-    from magwire.vessel import Source
+    from magwire.vessel import Source, Spot
 
 Point = Annotated[str | None, Parameter(allow_leading_hyphen=True)]
 Points = Annotated[tuple[str, ...], Parameter(allow_leading_hyphen=True, negative="")]
@@ -57,20 +58,18 @@ class Reading:
 
     def options(self) -> dict[str, Any]:
         """What ``Vessel.read`` takes, but for the unit."""
-        from magwire import lumen_commands as commands
-
         found: dict[str, Any] = {
-            "entrance": commands.spot(self.entrance, "--entrance"),
-            "radius": commands.radius_of(self.radius),
+            "entrance": spot(self.entrance, "--entrance"),
+            "radius": radius_of(self.radius),
             "scale": self.scale,
             "smoothing": self.smoothing,
             "extend": self.extend,
-            "cut": [commands.triple(text, "length", "--cut") for text in self.cut],
+            "cut": [triple(text, "length", "--cut") for text in self.cut],
         }
         if self.rotation is not None:
-            found["rotation"] = commands.triple(self.rotation, "angle", "--rotation")
+            found["rotation"] = triple(self.rotation, "angle", "--rotation")
         if self.translation is not None:
-            found["translation"] = commands.triple(self.translation, "length", "--translation")
+            found["translation"] = triple(self.translation, "length", "--translation")
         return found
 
     def refuse_any(self) -> None:
@@ -95,3 +94,29 @@ def source_of(files: tuple[Path, ...]) -> Source:
     if not files:
         raise CommandError("The command needs a vessel's file, a folder or several files.")
     return files[0] if len(files) == 1 else list(files)
+
+
+def spot(text: str | None, name: str) -> Spot | None:
+    """An end by its name or number, or a point such as "1 mm, 2 mm, 3 mm"."""
+    if text is None:
+        return None
+    if text.count(",") == 2:
+        return triple(text, "length", name)
+    return int(text) if text.strip().isdecimal() else text
+
+
+def triple(text: str, dimension: str, name: str) -> list[float]:
+    """Three quantities such as "1 mm, 2 mm, 3 mm"."""
+    parts = text.split(",")
+    if len(parts) != 3:
+        example = DIMENSIONS[dimension].example
+        raise CommandError(
+            f"Input {name} must be three quantities such as '{example}, {example}, {example}'; "
+            f"received {text!r}."
+        )
+    return [parse(part.strip(), dimension, name) for part in parts]
+
+
+def radius_of(text: str | None) -> float | str | None:
+    """One radius such as "2 mm", or the name of an array."""
+    return parse(text, "length", "--radius") if text and text[:1].isdecimal() else text

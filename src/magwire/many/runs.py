@@ -13,7 +13,7 @@ from magwire.many.cluster import run_there
 from magwire.many.job import Job
 from magwire.many.outcome import Outcome
 from magwire.many.processes import run_here
-from magwire.progress import WIDTH, bar
+from magwire.report.progress import WIDTH, bar
 
 if TYPE_CHECKING:
     from magwire.scenario import Scenario

@@ -1,6 +1,7 @@
 """What field comes next."""
 
 from magwire.navigate.navigator import (
+    Course,
     NavigationError,
     Navigator,
     Observation,
@@ -9,4 +10,12 @@ from magwire.navigate.navigator import (
 )
 from magwire.navigate.schedule import Schedule
 
-__all__ = ["NavigationError", "Navigator", "Observation", "Prescribed", "Schedule", "Steering"]
+__all__ = [
+    "Course",
+    "NavigationError",
+    "Navigator",
+    "Observation",
+    "Prescribed",
+    "Schedule",
+    "Steering",
+]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from magwire.engine.system import System
 from magwire.errors import MagwireError
@@ -42,11 +42,19 @@ class Observation:
     speed: float | None = None
 
 
+class Course(Protocol):
+    """Inputs by the feed."""
+
+    def at(self, feed: ArrayLike) -> Array:
+        """Inputs at feeds, shape (n, m)."""
+        ...
+
+
 class Navigator(Protocol):
     """A way to steer. To add one, write a class with this method."""
 
-    def plan(self, observation: Observation, until: float) -> Schedule:
-        """The field from the observed feed to the feed ``until`` [m] of the next observation.
+    def plan(self, observation: Observation, until: float) -> Course:
+        """The inputs from the observed feed to the feed ``until`` [m] of the next observation.
 
         Raises
         ------

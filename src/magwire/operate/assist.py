@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from magwire.engine.plant import Plant
 from magwire.errors import positive
-from magwire.navigate import Navigator, Observation, Schedule
+from magwire.navigate import Navigator, Observation
+from magwire.navigate.navigator import Course
 
 Array = NDArray[np.float64]
 
@@ -33,7 +34,7 @@ class Assist:
     def __init__(self, navigator: Navigator, plant: Plant, every: float) -> None:
         self.navigator, self.plant = navigator, plant
         self.every = positive("Assist", "every", every, "m")
-        self._schedule: Schedule | None = None
+        self._schedule: Course | None = None
         self._stretch = (0.0, 0.0)
 
     def inputs(self, feed: float, speed: float) -> Array:

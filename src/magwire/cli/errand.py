@@ -1,0 +1,157 @@
+"""What ``magwire plan`` is to do, as its options say."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from magwire.cli.reading import spot
+from magwire.contact import Barrier
+from magwire.errors import InputError, one_of, positive
+from magwire.lumen import Lumen
+from magwire.lumen.names import meant
+from magwire.navigate.demands import Demands
+from magwire.planning import Prospect, plan
+from magwire.units import parse
+from magwire.vessel import Source, Vessel
+from magwire.wire import Wire
+
+if TYPE_CHECKING:
+    from magwire.scenario import Scenario
+
+FINE = 0.2  # edge length at least, over the smallest radius of the lumen
+SAG = 0.025  # of an edge in the tightest bend at most, over the least room for the wire
+FINEST = 0.5  # edge length at least, over the radius of the wire
+MAGNET = 10.0  # length of the magnet, over the radius of the wire, if nothing else is said
+TRUNK = 5.0  # length of a wire before it is fitted to its way, over that of its magnet
+POISSON = 0.5
+DENSITY = 2000.0  # plays no part in equilibria [kg/m^3]
+DEFAULTS = {"modulus": "3 MPa", "magnetization": "128 kA/m"}
+
+Words = Mapping[str, str | None]
+
+
+class Work(NamedTuple):
+    """What is to be planned.
+
+    Attributes
+    ----------
+    lumen, wire
+        The lumen, and the wire that goes through it.
+    demands, contact
+        What the field must keep to, and the wall's barrier; one that fits if None.
+    notes
+        What was done to the vessel's file, a sentence each.
+    vessel
+        What the file holds; None for a scenario.
+    """
+
+    lumen: Lumen
+    wire: Wire
+    demands: Demands
+    contact: Barrier | None
+    notes: tuple[str, ...]
+    vessel: Vessel | None
+
+
+def of_file(source: Source, units: str | None, words: Words, options: dict[str, Any]) -> Work:
+    """What to plan for a vessel's file.
+
+    Parameters
+    ----------
+    source, units, options
+        For ``Vessel.read``.
+    words
+        Texts by name: the wire's ``diameter``, ``modulus``, ``magnetization`` and ``magnet``, and
+        the largest ``field``.
+    """
+    if words["diameter"] is None:
+        raise InputError(
+            "Input --wire must be the wire's diameter, such as '0.6 mm'; received none."
+        )
+    _read(words, "diameter", "diameter", "--wire")  # better said before the file is read
+    vessel = Vessel.read(source, units, **options)
+    lumen = vessel.lumen()
+    demands = _demands(words, Demands())
+    return Work(lumen, _wire(words, lumen), demands, None, vessel.record(), vessel)
+
+
+def of_scenario(scenario: Scenario, words: Words) -> Work:
+    """What to plan for a scenario: its lumen, its wire, its wall, and its steering's demands."""
+    job = scenario.build()
+    system = job.simulation.system
+    lumen, wire = system.lumen, system.wire
+    if words["diameter"] is not None:
+        radius = 0.5 * _read(words, "diameter", "diameter", "--wire")
+        parts = (replace(part, radius=radius, end_radius=None) for part in wire.sections)
+        wire = Wire(tuple(parts), wire.nodes)
+    steered = {
+        name: value
+        for name in Demands.__dataclass_fields__
+        if (value := getattr(scenario.navigate, name, None)) is not None
+    }
+    demands = _demands(words, Demands(**steered))
+    return Work(lumen, wire, demands, system.contact, scenario.notes, None)
+
+
+def outlets(work: Work, targets: Sequence[str]) -> tuple[str, ...]:
+    """The outlets that are asked for, each once; all of them if none is."""
+    known = work.lumen.outlets
+    if not targets or not known:
+        return known or ("outlet",)
+    if work.vessel is not None:
+        found = [work.vessel.outlet(spot(target, "--target")) for target in targets]
+        return tuple(dict.fromkeys(name for name in found if name is not None))
+    names = (one_of("magwire plan", "--target", meant(name, known), known) for name in targets)
+    return tuple(dict.fromkeys(names))
+
+
+def carried_out(work: Work, names: Sequence[str]) -> Iterator[Prospect]:
+    """Plan for one outlet after the other."""
+    for name in names:
+        yield from plan(
+            work.lumen,
+            work.wire,
+            demands=work.demands,
+            contact=work.contact,
+            outlets=(name,) if work.lumen.outlets else (),
+        )
+
+
+def _wire(words: Words, lumen: Lumen) -> Wire:
+    """A wire of one material with a magnet at its tip."""
+    radius = 0.5 * _read(words, "diameter", "diameter", "--wire")
+    modulus = _read(words, "modulus", "pressure", "--youngs-modulus")
+    magnet = MAGNET * radius
+    if words["magnet"] is not None:
+        magnet = _read(words, "magnet", "length", "--magnetized-tip")
+    edge = min(max(radius, FINE * lumen.narrowest), magnet)
+    room, bend = lumen.narrowest - radius, min(bend.radius for bend in lumen.bend_radius())
+    if room > 0.0:
+        edge = min(edge, max(FINEST * radius, math.sqrt(8.0 * bend * SAG * room)))
+    edges = max(round(TRUNK * magnet / edge), 8)
+    return Wire.uniform(
+        length=edges * edge,
+        radius=radius,
+        youngs_modulus=modulus,
+        shear_modulus=modulus / (2.0 * (1.0 + POISSON)),
+        density=DENSITY,
+        nodes=edges + 1,
+        magnetized_tip=magnet,
+        magnetization=_read(words, "magnetization", "magnetization", "--magnetization"),
+    )
+
+
+def _demands(words: Words, given: Demands) -> Demands:
+    """What the field must keep to, with the limit that was asked for."""
+    if words["field"] is None:
+        return given
+    return replace(given, max_field=_read(words, "field", "flux_density", "--max-field"))
+
+
+def _read(words: Words, name: str, dimension: str, option: str) -> float:
+    """A positive quantity of an option."""
+    value = parse(words[name] or DEFAULTS.get(name), dimension, option)
+    return positive("magwire plan", option, value)

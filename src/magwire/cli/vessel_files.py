@@ -1,0 +1,73 @@
+"""Files and pictures of a vessel that ``magwire lumen`` writes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from magwire.cli.words import CommandError
+from magwire.files import write_whole
+from magwire.units import parse
+from magwire.vessel import Spot, Vessel
+from magwire.vessel.files import Line, netcdf, vtp
+
+WRITTEN = (".vtp", ".nc", ".toml")
+MM = 1e3
+
+
+def write(vessel: Vessel, target: Spot | None, out: Path, *, force: bool) -> None:
+    """Write a vessel as .vtp in millimetres, as .nc in metres, or as a scenario's table in .toml.
+
+    Parameters
+    ----------
+    vessel
+        The vessel.
+    target
+        Of the scenario's table.
+    out
+        The file to write.
+    force
+        Whether it may be there already.
+    """
+    if out.suffix not in WRITTEN:
+        raise CommandError(
+            f"Output file '{out}' must end in one of {', '.join(WRITTEN)}; received {out.suffix!r}."
+        )
+    if out.exists() and not force:
+        raise CommandError(f"Output file '{out}' exists already; use --force to overwrite it.")
+    lumen = vessel.lumen(target)  # refuses what could not be used
+    factor = MM if out.suffix == ".vtp" else 1.0
+    tubes = vessel.tubes.items()
+    lines = [Line(name, factor * tube.points, factor * tube.radius) for name, tube in tubes]
+    ends = (vessel.entrance, *vessel.tubes)
+    try:
+        if out.suffix == ".vtp":
+            vtp.write(out, lines, ends)
+        elif out.suffix == ".nc":
+            netcdf.write(out, lines, ends)
+        else:
+            write_whole(out, _toml(vessel, str(lumen.target)))
+    except OSError as error:
+        reason = (error.strerror or "unknown reason").lower()
+        raise CommandError(f"Output file '{out}' cannot be written: {reason}.") from None
+
+
+def draw(vessel: Vessel, path: Path, wire: str | None) -> None:
+    """Draw a vessel into a file, with a wire of this diameter to compare its radius with."""
+    from magwire.plot import vessels
+
+    tubes = {name: tube.centreline() for name, tube in vessel.tubes.items()}
+    radius = None if wire is None else 0.5 * parse(wire, "diameter", "--wire")
+    try:
+        vessels.save(tubes, path, radius, vessel.surface)
+    except (OSError, ValueError) as error:
+        why = str(error).splitlines()[0].rstrip(".")
+        raise CommandError(f"Picture '{path}' cannot be written: {why}.") from None
+
+
+def _toml(vessel: Vessel, target: str) -> str:
+    import tomli_w
+
+    from magwire.scenario.vessels import rows_of
+
+    table = {"shape": "vessel", "target": target, "branches": rows_of(vessel)}
+    return tomli_w.dumps({"lumen": table})

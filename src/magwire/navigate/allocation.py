@@ -1,0 +1,353 @@
+"""Steering by an actuator's inputs: first the field, then the inputs that do the same (P-28).
+
+The navigator of a uniform field plans as if there were one. At every knot of its schedule inputs
+are sought that make its field where the magnet is, at the least cost: power, or the way of a
+magnet. A gradient pulls, though: so the wire's equilibrium in the actuator's own field is followed,
+and the inputs are corrected until the tip is where the plan has it, with the planned component of
+the field along it, which is what keeps it from buckling.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import daqp
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from magwire.actuate import Actuator, Magnet
+from magwire.engine.command import Drive
+from magwire.engine.plant import Plant
+from magwire.engine.point import Point
+from magwire.engine.sensitivity import derivative
+from magwire.engine.status import Status
+from magwire.engine.system import System
+from magwire.errors import InputError, array
+from magwire.navigate.model import across
+from magwire.navigate.navigator import NavigationError, Navigator, Observation, Steering
+from magwire.navigate.schedule import Schedule
+
+Array = NDArray[np.float64]
+
+ROUNDS = 200  # of linearisation, where the field is not linear in the inputs
+CLOSE = 1e-4  # of the wanted field, by which the made one may be off
+POINTS = 201  # of the path, from which a magnet keeps away
+REACH = 0.02  # longest step of a magnet's coordinate [m], and of its direction, in one round
+LEAST = 1e-3  # field that others are measured against [T]: less of it turns no tip by much
+CORRECTIONS = 6  # of the inputs at a knot
+ON_PLAN = 0.01  # tip off the plan, over the radius, and field along it, over the planned one
+ASIDE = 0.2  # the same, beyond which a knot counts as not reached
+ASTRAY = (
+    "no inputs within the limits bring the tip to where it is planned, in the actuator's own "
+    "field: its gradient pulls, or the wire is about to buckle; ask for a larger stability_margin "
+    "or tip_clearance, or use larger coils."
+)
+PARTS = (1.0, 0.3, 0.1, 0.03, 0.01)  # of the missing field that a round tries to make
+FREE = 1e30  # a bound that binds nothing, for the solver
+
+
+@dataclass(frozen=True)
+class InputSchedule:
+    """Inputs of an actuator that are linear in the feed between knots.
+
+    Parameters
+    ----------
+    feed
+        Knots, rising, shape (k,) [m]; before the first and after the last the inputs stay.
+    inputs
+        At the knots, shape (k, m).
+    """
+
+    feed: Array
+    inputs: Array
+
+    def at(self, feed: ArrayLike) -> Array:
+        """Inputs at feeds, shape (n, m)."""
+        where = np.atleast_1d(np.asarray(feed, dtype=np.float64))
+        columns = [np.interp(where, self.feed, column) for column in self.inputs.T]
+        return np.stack(columns, axis=1)
+
+
+@dataclass(frozen=True)
+class Allocated:
+    """Steer by the inputs of the simulation's actuator: first the field, then the inputs.
+
+    Parameters
+    ----------
+    steering
+        Who plans the field, such as a ``TipNavigator``.
+    """
+
+    steering: Steering
+
+    @property
+    def update_every(self) -> float:
+        """Feed between two observations [m]."""
+        return self.steering.update_every
+
+    def start(self, system: System) -> AllocatingNavigator:
+        """The navigator of one run of a system.
+
+        Raises
+        ------
+        InputError
+            If the system has no actuator, or cannot be steered by a field.
+        """
+        if system.actuator is None:
+            raise InputError(
+                "Input actuator of Simulation must be given to steer by its inputs; received None."
+            )
+        inner = self.steering.start(replace(system, actuator=None))
+        return AllocatingNavigator(inner, system)
+
+
+class AllocatingNavigator:
+    """A navigator of a uniform field, and the inputs that make its field at the magnet.
+
+    Parameters
+    ----------
+    navigator
+        Who plans the field.
+    system
+        Wire, lumen and actuator.
+    """
+
+    def __init__(self, navigator: Navigator, system: System) -> None:
+        assert system.actuator is not None
+        self.navigator, self._system, self._actuator = navigator, system, system.actuator
+        begin, end = system.wire.magnet
+        self._behind = system.wire.length - 0.5 * (begin + end)  # of the tip, the magnet's middle
+        self._last = system.idle_inputs
+        self._plant = Plant(system.smooth)
+        self._unit = system.path.narrowest
+
+    def plan(self, observation: Observation, until: float) -> InputSchedule:
+        """The inputs from the observed feed to the feed ``until`` [m].
+
+        Raises
+        ------
+        NavigationError
+            If no field does what is asked for, or no inputs within the limits make it.
+        """
+        course = self.navigator.plan(observation, until)
+        assert isinstance(course, Schedule)
+        low, high = sorted((observation.feed, until))
+        inner = course.feed[(course.feed > low) & (course.feed < high)]
+        knots = np.unique(np.concatenate(([low], inner, [high])))
+        if until < observation.feed:
+            knots = knots[::-1]
+        rows, start = [], self._last
+        for feed, flux in zip(knots, course.at(knots), strict=True):
+            start = self._allocate(float(feed), flux, start)
+            rows.append(start)
+        self._last = rows[-1]
+        order = np.argsort(knots)
+        return InputSchedule(knots[order], np.array(rows)[order])
+
+    def _allocate(self, feed: float, flux: Array, start: Array) -> Array:
+        curve = self._system.path.branches[0].curve
+        place = curve.at(np.array([feed - self._behind]))[0, :3]
+        found = allocate(self._actuator, place, flux, start)
+        at = f"At {1e3 * feed:.4g} mm of feed"
+        if found is None:
+            raise NavigationError(f"{at} {binding(self._actuator, place, flux, start)}")
+        tip = self.expected_tip(feed)
+        if tip is not None and np.any(flux):
+            if not self._follow(feed, found) or not self._correct(tip, flux):
+                raise NavigationError(f"{at} {ASTRAY}")
+            found = self._plant.inputs
+        if isinstance(self._actuator, Magnet):
+            self._keep_out(self._actuator, found, feed)
+        return found
+
+    def _follow(self, feed: float, inputs: Array) -> bool:
+        """Bring the model to a feed and inputs by equilibria; whether they were found."""
+        plant = self._plant
+        edge = float(self._system.mesh.edge_length.min())
+        steps = max(1, int(np.ceil(abs(feed - plant.feed) / (0.5 * edge) - 1e-9)))
+        share = np.linspace(0.0, 1.0, steps + 1)[1:, None]
+        course = plant.feed + share[:, 0] * (feed - plant.feed)
+        way = plant.inputs + share * (inputs - plant.inputs)
+        done = plant.advance(Drive(course, np.zeros(steps), way, 1.0, inertia=False))
+        return done == steps
+
+    def _correct(self, tip: Array, flux: Array) -> bool:
+        """Bring the model's tip to where it is planned; whether inputs within the limits do."""
+        plant, actuator, system = self._plant, self._actuator, self._system
+        limits = system.step_limits()
+        low = np.array([one.low for one in actuator.inputs])
+        high = np.array([one.high for one in actuator.inputs])
+        prices = np.array([one.resistance or 1.0 for one in actuator.inputs])
+        unit = max(float(np.linalg.norm(flux)), LEAST)
+        for _ in range(CORRECTIONS):
+            seen, u = plant.observe(), plant.inputs
+            point = Point(system, plant.samples(), plant.snapshot().state, plant.mouth)
+            moves = derivative(point, "tip", "inputs")
+            aside = across(seen.tip_direction)
+            where = (seen.tip - self._behind * seen.tip_direction)[None]
+            made, by_input = actuator.at(where, u)[0][0], actuator.response(where, u)[0][0].T
+            off = np.append(aside @ (tip - seen.tip) / self._unit, 0.0)
+            off[2] = seen.tip_direction @ (flux - made) / unit
+            rows = np.vstack([aside @ moves / self._unit, seen.tip_direction @ by_input])
+            rows[2] /= unit
+            if np.abs(off).max() < ON_PLAN or not plant.released:
+                return True
+            change = _programme(prices, u, (rows, off), (low - u, high - u))
+            if change is None:
+                return False
+            plant.inputs = np.clip(u + change, low, high)
+            if plant.settle(limits)[0] is not Status.CONVERGED:
+                return False
+        return float(np.abs(off).max()) < ASIDE
+
+    def _keep_out(self, magnet: Magnet, pose: Array, feed: float) -> None:
+        """Refuse a magnet that is too near to the vessel."""
+        curve = self._system.path.branches[0].curve
+        points = curve.at(np.linspace(0.0, curve.length, POINTS))
+        near = float((magnet.distance(pose, points[:, :3]) - points[:, 3]).min())
+        if near < magnet.keep_out:
+            raise NavigationError(
+                f"At {1e3 * feed:.4g} mm of feed the magnet would be {1e3 * near:.3g} mm from the "
+                f"vessel; it must keep {1e3 * magnet.keep_out:g} mm away."
+            )
+
+    def go_back(self, seen: Observation, failure: NavigationError) -> float:
+        """The feed to go back to [m], if the navigator of the field tries again.
+
+        Raises
+        ------
+        NavigationError
+            If it does not, or gives up.
+        """
+        again = getattr(self.navigator, "go_back", None)
+        if again is None:
+            raise failure
+        feed: float = again(seen, failure)
+        return feed
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was tried more than once, a sentence each."""
+        return tuple(getattr(self.navigator, "notes", ()))
+
+    def expected_tip(self, feed: float) -> Array | None:
+        """Where the tip should be at a feed [m], shape (3,) [m]; None if that is not known."""
+        known = getattr(self.navigator, "expected_tip", None)
+        tip: Array | None = None if known is None else known(feed)
+        return tip
+
+
+def allocate(
+    actuator: Actuator, place: ArrayLike, flux: ArrayLike, start: ArrayLike | None = None
+) -> Array | None:
+    """Inputs that make a flux density at a place, within their limits, at the least cost.
+
+    The cost of a current is its power, or its square where no resistance is known; that of a
+    magnet's coordinate is how far it is moved.
+
+    Parameters
+    ----------
+    actuator
+        What makes the field.
+    place
+        Shape (3,) [m].
+    flux
+        Shape (3,) [T].
+    start
+        Inputs to start from, shape (m,); the idle ones if left out.
+
+    Returns
+    -------
+    array or None
+        Shape (m,); None if there are none.
+    """
+    where = array("allocate", "place", place, (3,), "m")[None]
+    wanted = array("allocate", "flux", flux, (3,), "T")
+    u = np.array(actuator.idle if start is None else start, dtype=np.float64)
+    low = np.array([one.low for one in actuator.inputs])
+    high = np.array([one.high for one in actuator.inputs])
+    currents = np.array([one.unit == "A" for one in actuator.inputs])
+    prices = np.array([one.resistance or 1.0 for one in actuator.inputs])
+    unit = max(float(np.linalg.norm(wanted)), LEAST)
+    if isinstance(actuator, Magnet) and np.any(wanted):
+        far = np.linalg.norm(wanted - actuator.at(where, u)[0][0]) > 0.5 * unit
+        u = actuator.aimed(u, where[0], wanted) if far else u
+    u, linear = np.clip(u, low, high), _linear(actuator)
+    made = actuator.at(where, u)[0][0]
+    for _ in range(ROUNDS):
+        by_input = actuator.response(where, u)[0][0].T
+        near = np.where(currents, FREE, REACH)
+        change = None
+        for part in PARTS[:1] if linear else PARTS:
+            change = _programme(
+                np.where(currents, prices, 1.0),
+                np.where(currents, u, 0.0),
+                (by_input / unit, part * (wanted - made) / unit),
+                (np.maximum(low - u, -near), np.minimum(high - u, near)),
+            )
+            if change is not None:
+                break
+        if change is None:
+            return None
+        u = np.clip(u + change, low, high)
+        made = actuator.at(where, u)[0][0]
+        there = float(np.linalg.norm(wanted - made)) <= CLOSE * unit
+        size = max(1.0, float(np.linalg.norm(u)))
+        if there and (linear or float(np.linalg.norm(change)) <= CLOSE * size):
+            return None if actuator.violations(u) else u
+    return None
+
+
+def _linear(actuator: Actuator) -> bool:
+    """Whether the field is linear in the inputs."""
+    table = actuator.arrays()
+    return not np.any(table.curve) and len(table.posed) == 0
+
+
+def _programme(
+    prices: Array, now: Array, made: tuple[Array, Array], bounds: tuple[Array, Array]
+) -> Array | None:
+    """Least sum of prices times (now + change)^2 with rows . change = missing, within bounds."""
+    rows, missing = made
+    count = len(prices)
+    scale = prices / prices.max()
+    low, high = (np.clip(bound, -FREE, FREE) for bound in bounds)
+    kinds = np.zeros(count + len(rows), dtype=np.int32)
+    kinds[count:] = 5  # equations
+    solution, _, flag, _ = daqp.solve(
+        np.diag(scale),
+        scale * now,
+        np.ascontiguousarray(rows),
+        np.concatenate((high, missing)),
+        np.concatenate((low, missing)),
+        kinds,
+    )
+    return np.asarray(solution) if flag > 0 else None
+
+
+def binding(actuator: Actuator, place: ArrayLike, flux: ArrayLike, start: ArrayLike) -> str:
+    """Which limit is in the way of a flux density at a place, as the end of a sentence."""
+    where = array("binding", "place", place, (3,), "m")[None]
+    wanted = array("binding", "flux", flux, (3,), "T")
+    u = np.array(start, dtype=np.float64)
+    asked = f"the magnet needs {1e3 * np.linalg.norm(wanted):.3g} mT"
+    by_input = actuator.response(where, u)[0][0].T
+    made = actuator.at(where, u)[0][0]
+    change, *_ = np.linalg.lstsq(by_input, wanted - made, rcond=None)
+    if np.linalg.norm(by_input @ change - (wanted - made)) > 1e-6 * np.linalg.norm(wanted):
+        return f"{asked} in a direction that the actuator does not make there."
+    needed = u + change
+    limits = np.array([max(abs(one.low), abs(one.high)) for one in actuator.inputs])
+    over = np.abs(needed) / limits
+    worst = int(np.argmax(over))
+    one = actuator.inputs[worst]
+    if over[worst] <= 1.0:
+        said = actuator.violations(needed)
+        return f"{asked}: {said[0]}" if said else f"{asked}, and no inputs within the limits do."
+    digits = 3  # enough of them to tell the two apart
+    while f"{abs(needed[worst]):.{digits}g}" == f"{limits[worst]:.{digits}g}" and digits < 17:
+        digits += 1
+    return (
+        f"{asked}: input {one.name} is at its limit of {limits[worst]:.{digits}g} {one.unit}; "
+        f"it takes {abs(needed[worst]):.{digits}g} {one.unit}."
+    )

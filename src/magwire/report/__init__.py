@@ -1,0 +1,1 @@
+"""What the commands print: runs, sweeps, outlets, vessels, devices, this machine, progress."""

@@ -1,0 +1,130 @@
+"""Steering in amperes and by a magnet's pose: what is made, what it costs, what is in the way."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import magwire as mw
+from magwire.actuate import Circuit, Coil, Helmholtz, Input, Loops, Magnet, Pair, Pose
+from magwire.navigate.allocation import Allocated, allocate, binding
+
+PLACE = np.array([0.004, -0.003, 0.002])
+
+
+def coils(count: int = 8, limit: float = 20.0) -> Loops:
+    """Coils all around, with resistances of their own."""
+    rng = np.random.default_rng(2)
+    made, currents = [], []
+    for k in range(count):
+        way = rng.normal(size=3)
+        way /= np.linalg.norm(way)
+        name = f"I{k}"
+        made.append(Coil(name, tuple(0.1 * way), tuple(way), 0.05, 200.0))
+        currents.append(Input(name, "A", -limit, limit, resistance=float(rng.uniform(0.5, 2.0))))
+    return Loops(coils=tuple(made), currents=tuple(currents))
+
+
+def platform(limit: float = 40.0) -> Helmholtz:
+    """Three nested pairs around the half-circle."""
+    circuit = Circuit(resistance=1.0, inductance=5e-3, supply=48.0)
+    return Helmholtz(
+        pairs=tuple(
+            Pair(axis, radius, 200.0, max_current=limit, circuit=circuit)
+            for axis, radius in (("x", 0.08), ("y", 0.10), ("z", 0.12))
+        ),
+        pose=Pose(translation=(0.0125, 0.025, 0.0)),
+    )
+
+
+def half_circle(actuator: Helmholtz) -> mw.Simulation:
+    wire = mw.Wire.uniform(
+        length=0.1,
+        radius=0.6e-3,
+        youngs_modulus=3e6,
+        shear_modulus=1e6,
+        density=2000.0,
+        nodes=100,
+        magnetized_tip=5e-3,
+        magnetization=128e3,
+    )
+    lumen = mw.Lumen.half_circle(centreline_radius=0.025, radius=3e-3)
+    return mw.Simulation(wire, lumen, actuator=actuator)
+
+
+STEADY = Allocated(mw.TipNavigator(mw.Demands(stability_margin=10.0), update_every=1e-3))
+
+
+def test_currents_of_least_power_are_the_weighted_pseudo_inverses() -> None:
+    actuator = coils()
+    flux = np.array([6e-3, -3e-3, 2e-3])
+    by_input = actuator.response(PLACE[None], np.zeros(8))[0][0].T
+    weight = np.diag([1.0 / one.resistance for one in actuator.inputs])
+    expected = weight @ by_input.T @ np.linalg.solve(by_input @ weight @ by_input.T, flux)
+    found = allocate(actuator, PLACE, flux)
+    assert found is not None
+    np.testing.assert_allclose(found, expected, rtol=1e-6)
+    np.testing.assert_allclose(actuator.at(PLACE[None], found)[0][0], flux, atol=1e-9)
+
+
+def test_a_limit_that_binds_is_kept_and_paid_for_by_the_others() -> None:
+    flux = np.array([6e-3, -3e-3, 2e-3])
+    free = allocate(coils(), PLACE, flux)
+    assert free is not None
+    tight = coils(limit=0.9 * float(np.abs(free).max()))
+    found = allocate(tight, PLACE, flux)
+    assert found is not None
+    assert np.abs(found).max() <= 0.9 * np.abs(free).max() * (1.0 + 1e-9)
+    np.testing.assert_allclose(tight.at(PLACE[None], found)[0][0], flux, atol=1e-8)
+    assert tight.power(found) > coils().power(free)
+
+
+def test_what_binds_is_named_with_figures() -> None:
+    actuator = coils(count=3, limit=1.0)
+    flux = np.array([0.05, 0.0, 0.0])
+    assert allocate(actuator, PLACE, flux) is None
+    by_input = actuator.response(PLACE[None], np.zeros(3))[0][0].T
+    needed = np.linalg.solve(by_input, flux)
+    worst = int(np.argmax(np.abs(needed)))
+    said = binding(actuator, PLACE, flux, np.zeros(3))
+    assert said.startswith("the magnet needs 50 mT: input ")
+    assert f"input I{worst} is at its limit of 1 A" in said
+    assert f"{abs(needed[worst]):.3g} A." in said
+
+
+@pytest.mark.parametrize("flux", [(0.0, 5e-3, 0.0), (4e-3, -8e-3, 2e-3), (-0.02, 0.0, 0.0)])
+def test_a_magnet_is_put_where_it_makes_the_field(flux: tuple[float, ...]) -> None:
+    parked = (0.0, 0.2, 0.0, 0.0, -1.0, 0.0)
+    magnet = Magnet(radius=0.025, length=0.05, remanence=1.45, parked=parked)
+    found = allocate(magnet, PLACE, flux)
+    assert found is not None
+    np.testing.assert_allclose(magnet.at(PLACE[None], found)[0][0], flux, atol=2e-4 * 0.02)
+    assert magnet.distance(found, PLACE[None])[0] > 0.03
+
+
+def test_the_half_circle_in_currents_is_free_of_tip_contact() -> None:
+    """In the coils' own field, with its gradients, stepped with inertia."""
+    simulation = half_circle(platform())
+    result = simulation.run(mw.Feed(4e-3, 0.072), STEADY, time_step=0.02, record_every=1e-3)
+    assert result.status == "complete", result.message
+    assert result.max_tip_force == 0.0
+    inputs = result.dataset["inputs"].values
+    assert result.dataset.attrs["input_names"] == "Ix Iy Iz"
+    assert 10.0 < np.abs(inputs).max() <= 40.0
+    tip = result.position[-1, -1]
+    made = platform().at(tip[None], inputs[-1])[0][0]
+    np.testing.assert_allclose(result.field[-1], made, rtol=1e-9)
+
+
+def test_the_coil_that_is_too_weak_is_named_with_the_feed() -> None:
+    result = half_circle(platform(limit=10.0)).run(mw.Feed(4e-3, 0.072), STEADY, time_step=0.05)
+    assert result.status == "no field"
+    assert result.message.startswith("At ")
+    assert "mm of feed the magnet needs" in result.message
+    assert "input Ix is at its limit of 10" in result.message
+
+
+def test_without_an_actuator_there_are_no_inputs_to_steer_by() -> None:
+    plain = mw.Simulation(half_circle(platform()).system.wire, mw.Lumen.straight(0.2, 3e-3))
+    with pytest.raises(mw.InputError, match="actuator of Simulation must be given"):
+        STEADY.start(plain.system)
