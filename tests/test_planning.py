@@ -100,7 +100,7 @@ def test_one_tube_has_one_outlet() -> None:
 
 
 def test_where_the_tip_is_counts_and_not_how_far_the_wire_is_fed() -> None:
-    """Two wide bends, which the wire cuts: it is at the outlet before it is as long as the way."""
+    """Two wide bends, which the wire cuts: it is at the outlet before it is as long as the path."""
     curvatures = [[0, 0, 0], [0.01, 60, 0], [0.03, 60, 0], [0.035, -60, 0], [0.06, -60, 0]]
     bends = mw.Lumen.bends(curvatures, 3e-3)
     (prospect,) = mw.plan(bends, WIRE)

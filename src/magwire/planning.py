@@ -21,7 +21,7 @@ from magwire.wire import Wire
 
 Array = NDArray[np.float64]
 
-PACE = 0.2  # feed between two planned fields, over the lower quartile of the radii of the way
+PACE = 0.2  # feed between two planned fields, over the lower quartile of the radii of the path
 FINEST = 5e-3  # that feed at most, over the wire's length
 SPEED = 0.01  # wire lengths in a second; there is no inertia
 PART = 0.25  # activation gap at most, over the clearance at the narrowest place
@@ -29,12 +29,12 @@ GAP = 1e-4  # activation gap at most [m]
 LEFT = 0.25  # of the gap, where the wire is bent around the sharpest bend
 HARD = 1e-3  # stiffness of the wall's barrier, over Young's modulus of the wire, at least
 ATTEMPTS = 3  # in one place
-SLACK = 1.1  # feed at most, over the length of the way: a wire may lie on the outside of bends
+SLACK = 1.1  # feed at most, over the length of the path: a wire may lie on the outside of bends
 
 
 @dataclass(frozen=True)
 class Prospect:
-    """What to expect on the way to an outlet.
+    """What to expect on the path to an outlet.
 
     Attributes
     ----------
@@ -46,9 +46,9 @@ class Prospect:
         Length of the path; insertion length of the wire; and how far along the path the tip came
         [m]. A wire that cuts the bends is shorter than the path.
     narrowest, narrowest_at
-        Smallest radius on the way and the arc parameter where it is [m].
+        Smallest radius on the path and the arc parameter where it is [m].
     bend
-        Tightest bend on the way.
+        Tightest bend on the path.
     peak_field
         Largest flux density [T].
     tip_force, wall_force
@@ -62,7 +62,7 @@ class Prospect:
     reason
         Why it does not get there; of an outlet that is reached, what was tried again, or "".
     feed, arc, flux_density, force
-        The same along the way: feed [m], how far the tip came [m], flux density [T] and force on
+        The same along the path: feed [m], how far the tip came [m], flux density [T] and force on
         the whole wire [N], shapes (n,).
     """
 
@@ -105,7 +105,7 @@ def plan(
     lumen
         The lumen; one without named outlets has one, "outlet".
     wire
-        The wire. If it is too short for the way to an outlet, its proximal section is made longer.
+        The wire. If it is too short for the path to an outlet, its proximal section is made longer.
     demands
         What the field must keep to, such as its largest value.
     contact
@@ -188,7 +188,7 @@ def firm_wall(wire: Wire, bend: float, gap: float) -> Barrier:
 def _prospect(
     name: str, lumen: Lumen, wire: Wire, demands: Demands, contact: Barrier | None
 ) -> Prospect:
-    """What to expect on the way to the lumen's target."""
+    """What to expect on the path to the lumen's target."""
     way = lumen.path().branches[0]
     knots = way.curve.knots()
     radii = way.curve.at(knots)[:, 3]
@@ -249,7 +249,9 @@ def _travel(
     reached = bool(arc[-1] >= goal)
     reason = result.message
     if result.status == "complete" and not reached:
-        reason = f"All of the wire is fed, and {1e3 * (goal - arc[-1]):.4g} mm are left. {reason}"
+        reason = (
+            f"All of the wire is inserted, and {1e3 * (goal - arc[-1]):.4g} mm are left. {reason}"
+        )
     flux = np.linalg.norm(result.field, axis=1)
     return replace(
         nothing,

@@ -140,7 +140,7 @@ def test_summary(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", "half-circle", *SHORT]) == 0
     lines = dict(line.split("  ", 1) for line in capsys.readouterr().out.splitlines())
     assert lines["status"].strip() == "complete"
-    assert lines["fed"].strip() == "3 mm in 30 steps, 3 s simulated"
+    assert lines["inserted"].strip() == "3 mm in 30 steps, 3 s simulated"
     assert "N, normalised" in lines["peak tip force"]
     assert "N, normalised" in lines["mean tip force"]
     assert lines["smallest clearance"].strip().endswith(" m")

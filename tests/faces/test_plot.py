@@ -165,7 +165,7 @@ def test_map_of_a_tree_tells_of_what_presses_in_other_branches() -> None:
         return " ".join(text.get_text() for text in ax.texts)
 
     data = made(info())
-    assert words(data) == "dashed: length fed"
+    assert words(data) == "dashed: insertion"
     data["lumen_force"] = 0.9 * data["lumen_force"]
     assert "not shown: what presses" in words(data)
     data["lumen_force"] = 0.0 * data["lumen_force"]

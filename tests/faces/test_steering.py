@@ -79,8 +79,8 @@ def test_summary_tells_of_steering(finished: tuple[Path, str]) -> None:
     assert rows["stable"] == "at every record"
     result = Result.load(finished[0])
     away, at = result.largest_tip_departure, result.feed[np.nanargmax(result.tip_departure)]
-    said = f"by {1e3 * away:.3g} mm at most, at a feed of {1e3 * at:.6g} mm"
-    assert rows["tip off the plan"] == said
+    said = f"{1e3 * away:.3g} mm at most at the tip, at a feed of {1e3 * at:.6g} mm"
+    assert rows["model error"] == said
     assert 0.0 < away < 1e-4
     field, normalised = rows["peak field"].split(", normalised ")
     assert field.endswith(" mT")
@@ -91,9 +91,9 @@ def test_summary_of_quasi_static_motion(folder: Path, capsys: pytest.CaptureFixt
     words = [*STEERED, "solver.motion=quasi-static", "--out", "out"]
     assert main(["run", "half-circle", *words]) == 0
     rows = rows_in(capsys.readouterr().out)
-    assert rows["fed"].startswith("16 mm in 160 steps")
+    assert rows["inserted"].startswith("16 mm in 160 steps")
     assert rows["motion"] == "quasi-static, an equilibrium at every step"
-    assert rows["largest move"].endswith("mm beyond what was fed, between two records")
+    assert rows["largest move"].endswith("mm beyond what was inserted, between two records")
     assert float(rows["largest move"].split()[0]) < 0.1
     assert Result.load(folder / "out").motion == "quasi-static"
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -77,3 +78,15 @@ def test_a_cache_that_cannot_be_written_to(
     folder = _jit._cache_folder()
     assert folder is not None
     assert folder.parent.parent == temporary
+
+
+def test_machine_code_lies_where_the_site_wants_it(tmp_path: Path) -> None:
+    """In a process of its own, since numba reads its settings once."""
+    call = "from magwire.kernels.wall.barrier import barrier; barrier(0.5, 1.0)"
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    environment.pop("MAGWIRE_CACHE", None)
+    subprocess.run([sys.executable, "-c", call], env=environment, check=True)
+    (folder,) = (tmp_path / "magwire").iterdir()
+    assert folder.name == _jit._cache_folder().name  # type: ignore[union-attr]
+    assert list(folder.rglob("barrier.barrier-*.nbi"))
+    assert list(tmp_path.rglob("*.nbi")) == list(folder.rglob("*.nbi"))

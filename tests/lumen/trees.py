@@ -1,4 +1,4 @@
-"""Trees of every kind: sharing their way, leaving at an angle, of several generations."""
+"""Trees of every kind: sharing their path, leaving at an angle, of several generations."""
 
 from __future__ import annotations
 

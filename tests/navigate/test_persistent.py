@@ -69,7 +69,7 @@ def test_a_tip_in_the_wrong_branch_is_taken_back_and_sent_anew() -> None:
     result, navigator = steered(256e3)
     assert result.status == "complete"
     assert len(navigator.notes) == 1
-    assert "the tip is on the way to 'right', not to 'left'" in result.message
+    assert "the tip is on the path to 'right', not to 'left'" in result.message
     assert "with tip_clearance 0.7" in result.message
     turn = int(np.argmax(np.diff(result.feed) < 0.0))
     back = float(result.feed[turn:].min())

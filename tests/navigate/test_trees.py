@@ -12,7 +12,7 @@ from magwire.scenario import load
 
 
 def nearest_way(lumen: Lumen, tip: np.ndarray) -> str:
-    """The outlet whose way is nearest to a point."""
+    """The outlet whose path is nearest to a point."""
     return min(lumen.outlets, key=lambda name: lumen.path(name).offset(tip[None])[0])
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.integrate import trapezoid
 
 from magwire.results import forces
 from magwire.results.forces import Layout
@@ -72,7 +73,7 @@ def test_the_integral_is_the_sum_up_to_both_ends() -> None:
     wire = layout(101)
     force = rng.random((4, 101))
     density = forces.per_length(wire, force)
-    sums = np.trapezoid(density, wire.station, axis=1)
+    sums = trapezoid(density, wire.station, axis=1)
     assert sums == pytest.approx(force.sum(axis=1), rel=1e-9)
 
 

@@ -94,7 +94,7 @@ def test_orientation_and_entrance(tmp_path: Path) -> None:
 
 
 def test_a_way_that_turns_back_is_left_out_and_moves_no_other(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"has no open end to go to: the way to 'end-2' is left"):
+    with pytest.raises(InputError, match=r"has no open end to go to: the path to 'end-2' is left"):
         read(tmp_path, [hairpin()])
     there, back = read(tmp_path, fork()), read(tmp_path, fork(), entrance="end-2")
     for vessel in (there, back):

@@ -21,7 +21,7 @@ class Feed:
     speed
         Feed speed [m/s].
     distance
-        Length of wire fed in the end [m].
+        Insertion length in the end [m].
     twist
         Angle by which the wire is turned about its axis where it leaves the guide [rad].
 

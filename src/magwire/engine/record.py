@@ -56,7 +56,7 @@ class RunInfo:
     magnet
         Where the distal magnet begins and ends on the wire [m]; NaN without one.
     way
-        Points and radius of the way from the entrance to the target, densely along it, shape
+        Points and radius of the path from the entrance to the target, densely along it, shape
         (q, 4) [m]; no rows in open space.
     title, scenario
         Title, and the whole scenario as TOML ("" for a run that was set up in Python).
@@ -115,7 +115,7 @@ class Record:
     Attributes
     ----------
     time, feed
-        Simulated time [s] and fed length [m].
+        Simulated time [s] and insertion length [m].
     position
         Nodes, proximal first, shape (nodes, 3) [m].
     flux_density

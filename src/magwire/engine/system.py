@@ -179,7 +179,7 @@ class System:
 
     @cached_property
     def path(self) -> Lumen:
-        """The way from the entrance to the lumen's target, as a single tube."""
+        """The path from the entrance to the lumen's target, as a single tube."""
         return self.lumen.path()
 
     @cached_property

@@ -34,7 +34,7 @@ ITERATIONS = 4000
 TRIES = 100
 """Iterations in one step, before the pull is made stronger."""
 REACH = 0.1
-"""Longest way of a node in one step, in wire lengths."""
+"""Longest move of a node in one step, in wire lengths."""
 FIRST = 10.0
 """Pull that is tried first, in units of Newton's first regularisation."""
 STRONGER, STRONG, WEAKER = 4.0, 2.0, 0.7

@@ -1,7 +1,7 @@
-"""Ways from one entrance, sharing their first points, joined into one lumen (P-10).
+"""Paths from one entrance, sharing their first points, joined into one lumen (P-10).
 
-The cost is that of the branches, not of the sum of all ways: what ways share is found by its points
-being the same, and the centreline of a way is made when it is asked for.
+The cost is that of the branches, not of the sum of all paths: what paths share is found by its
+points being the same, and the centreline of a path is made when it is asked for.
 """
 
 from __future__ import annotations
@@ -30,18 +30,18 @@ from magwire.lumen.tree import (
 
 Array = NDArray[np.float64]
 
-LEAD = 6  # points before a way leaves, so that its curve does not begin there
-RUN_IN = 16  # points of a way behind where it leaves, about four radii
+LEAD = 6  # points before a path leaves, so that its curve does not begin there
+RUN_IN = 16  # points of a path behind where it leaves, about four radii
 AT_ONCE = 8  # points that are looked at together
 
 
 def join_ways(ways: Mapping[str, Array], width: float | None) -> Tree:
-    """The tree of ways from one entrance.
+    """The tree of paths from one entrance.
 
     Parameters
     ----------
     ways
-        Balls of each way from the entrance on, by the name of its outlet, shape (n, 4) [m]: centre
+        Balls of each path from the entrance on, by the name of its outlet, shape (n, 4) [m]: centre
         and radius.
     width
         Width over which branches blend [m]; if None, by the radius at each junction.
@@ -59,7 +59,7 @@ def join_ways(ways: Mapping[str, Array], width: float | None) -> Tree:
 
 
 def _shared(balls: Array, seen: Mapping[bytes, int]) -> int:
-    """How many points a way shares with ways before it: all those before the first that is new."""
+    """How many points a path shares with those before it: all before the first that is new."""
     low, high = 0, len(balls)
     while low < high:
         middle = (low + high) // 2
@@ -71,7 +71,7 @@ def _shared(balls: Array, seen: Mapping[bytes, int]) -> int:
 
 
 def _wall(name: str, balls: Array, shared: int, walls: Walls, width: float | None) -> Branch:
-    """The wall of a way from where it leaves those before it; all of it for the first one."""
+    """The wall of a path from where it leaves those before it; all of it for the first one."""
     if not walls.branches:
         return _tube(balls)
     if np.linalg.norm(balls[0, :3] - walls.branches[0].entrance) > 0.0:
@@ -98,7 +98,7 @@ def _wall(name: str, balls: Array, shared: int, walls: Walls, width: float | Non
 
 
 def _leaves(name: str, balls: Array, start: int, walls: Walls) -> int:
-    """The last point of a way that lies on the centreline of another one's wall."""
+    """The last point of a path that lies on the centreline of another one's wall."""
     while start < len(balls):
         stop = min(start + AT_ONCE, len(balls))
         points, reach = balls[start:stop, :3], float(balls[start:stop, 3].max())

@@ -218,7 +218,7 @@ class Lumen:
         Parameters
         ----------
         branches
-            Tubes by name. Each one starts at the entrance and shares the first part of its way
+            Tubes by name. Each one starts at the entrance and shares the first part of its path
             with those before it, or starts on the centreline of one before it.
         target
             Name of the outlet to go to; the first one if left out. It does not change the wall.
@@ -292,22 +292,22 @@ class Lumen:
         target: str | None = None,
         blend: float | None = None,
     ) -> Lumen:
-        """Tree of ways from one entrance, each as points of its centreline with radii.
+        """Tree of paths from one entrance, each as points of its centreline with radii.
 
-        It is made in a time that grows with the branches, not with the sum of all ways, as far as
-        ways have the same points where they are one.
+        It is made in a time that grows with the branches, not with the sum of all paths, as far as
+        paths have the same points where they are one.
 
         Parameters
         ----------
         balls
-            Points and radii of each way by the name of its outlet, shape (n, 4) [m].
+            Points and radii of each path by the name of its outlet, shape (n, 4) [m].
         target, blend
             As of ``Lumen.tree``.
 
         Raises
         ------
         InputError
-            If the ways do not start at one place, or as of ``Lumen.tree``.
+            If the paths do not start at one place, or as of ``Lumen.tree``.
         """
         owner = "Lumen.ways"
         if blend is not None:
@@ -347,7 +347,7 @@ class Lumen:
         return tuple(self.paths)
 
     def path(self, target: str | None = None) -> Lumen:
-        """The way from the entrance to an outlet as a lumen of one branch.
+        """The path from the entrance to an outlet as a lumen of one branch.
 
         Its centreline is twice continuously differentiable, also where it goes from one branch
         into the next. Its wall is not that of the tree, which is wider at a junction.

@@ -264,7 +264,7 @@ def _path(name: str, line: Branch, ways: list[_Trace], paths: dict[str, Branch])
 
 
 def _parent(name: str, start: Array, ways: list[_Trace]) -> tuple[_Trace, float, float]:
-    """The way that a tube starts on, the arc parameter there and the distance from it [m]."""
+    """The path that a tube starts on, the arc parameter there and the distance from it [m]."""
     found = [way.nearest(start[None]) for way in ways]
     closest = int(np.argmin([distance[0] for distance, _, _ in found]))
     distance, arc, radius = (float(values[0]) for values in found[closest])

@@ -21,9 +21,7 @@ class Quantity(NamedTuple):
 
 
 QUANTITIES: dict[str, Quantity] = {
-    "fed": Quantity(
-        "m", "length of wire fed into the lumen in the end", lambda r: r.feed.max(initial=0.0)
-    ),
+    "fed": Quantity("m", "insertion length in the end", lambda r: r.feed.max(initial=0.0)),
     "max_tip_force": Quantity(
         "N", "largest force of the wall on the tip", lambda r: r.max_tip_force
     ),
@@ -66,7 +64,7 @@ QUANTITIES: dict[str, Quantity] = {
     "contact_free": Quantity("1", "another name of tip_contact_free", lambda r: r.contact_free),
     "first_contact": Quantity(
         "m",
-        "fed length at which some node first felt the wall",
+        "insertion length at which some node first felt the wall",
         lambda r: np.nan if r.first_contact is None else r.first_contact,
     ),
     "smallest_clearance": Quantity(

@@ -27,7 +27,7 @@ class Demands:
     max_field
         Largest flux density [T]; no planned field is larger, not by a rounding error.
     max_field_rate
-        Largest change of the flux density per length fed [T/m].
+        Largest change of the flux density per insertion length [T/m].
     """
 
     tip_clearance: float = 0.4

@@ -22,8 +22,8 @@ ATTEMPTS = 4  # in one place
 STEP = 4.0  # how much farther back each attempt starts, in the lumen's radius
 AHEAD = 1.0  # how far before a junction, in that radius
 PAST = 2.0  # how far past a place it counts as passed, in that radius
-STRAYED = 0.2  # how far outside the way to the target a tip is in another branch, in that radius
-DENSITY = 4.0  # balls per smallest radius by which a way is known
+STRAYED = 0.2  # how far outside the path to the target a tip is in another branch, in that radius
+DENSITY = 4.0  # balls per smallest radius by which a path is known
 CLOSE = 1e-9  # two feeds are the same [m]
 
 
@@ -39,7 +39,7 @@ def approaches(demands: Demands) -> tuple[Demands, ...]:
 
 
 class Ways:
-    """The ways to all outlets as balls, to see in which of them a point is.
+    """The paths to all outlets as balls, to see in which of them a point is.
 
     Parameters
     ----------
@@ -57,14 +57,14 @@ class Ways:
             self._balls[name] = tube.curve.at(self._arcs[name])
 
     def deepest(self, name: str, point: Array) -> tuple[float, float, float]:
-        """Gap of a point in the way to an outlet, arc parameter and radius there [m]."""
+        """Gap of a point in the path to an outlet, arc parameter and radius there [m]."""
         balls = self._balls[name]
         gap = balls[:, 3] - np.linalg.norm(balls[:, :3] - point, axis=1)
         at = int(np.argmax(gap))
         return float(gap[at]), float(self._arcs[name][at]), float(balls[at, 3])
 
     def strayed(self, point: Array) -> str | None:
-        """The other outlet on whose way a point is, if it is not on the way to the target."""
+        """The other outlet on whose path a point is, if it is not on the path to the target."""
         gap, arc, radius = self.deepest(self.target, point)
         if gap > -STRAYED * radius or arc == self._arcs[self.target][-1]:
             return None
@@ -73,7 +73,7 @@ class Ways:
         return best if best is not None and others[best] > 0.0 else None
 
     def junction(self, low: float, high: float) -> float | None:
-        """First arc parameter in a range where another way leaves the one to the target [m]."""
+        """First arc parameter in a range where another path leaves the one to the target [m]."""
         own, found = self._balls[self.target], []
         for name, balls in self._balls.items():
             if name == self.target:
@@ -139,7 +139,7 @@ class PersistentNavigator:
         branch = self._ways.strayed(observation.tip)
         if branch is not None:
             raise NavigationError(
-                f"At {observation.feed * 1e3:.4g} mm of feed the tip is on the way to '{branch}', "
+                f"At {observation.feed * 1e3:.4g} mm of feed the tip is on the path to '{branch}', "
                 f"not to '{self._ways.target}'."
             )
         schedule = self.navigator.plan(observation, until)

@@ -27,7 +27,7 @@ STARTS = (0, 3 * SIDES, 3 * SIDES + 3)  # rows about the offset, the eigenvalue,
 MISSES: Array = -np.repeat(np.eye(3), (3 * SIDES, 3, 1), axis=0)
 PENALTY = 300.0  # price of missing a constraint: it is paid only where there is no other way
 OFF_ROOM = 1.3  # room for the tip in a field that is off, over the room in the field itself
-MOST_ROOM = 0.85  # of that, as a part of the way to the wall
+MOST_ROOM = 0.85  # of that, as a part of the distance to the wall
 FREE = 1e30  # no bound
 
 

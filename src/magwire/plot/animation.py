@@ -166,7 +166,7 @@ class Scene:
             dot.set_data([self.push[record]], [force[record]])
         strength = 1e3 * float(np.linalg.norm(self.field[record]))
         self.words.set_text(
-            f"t = {self.time[record]:5.1f} s     fed {self.feed[record]:5.1f} mm     "
+            f"t = {self.time[record]:5.1f} s     inserted {self.feed[record]:5.1f} mm     "
             f"field {strength:5.1f} mT"
         )
         for artist in (*self.moving, self.arrow):

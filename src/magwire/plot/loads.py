@@ -45,7 +45,7 @@ def columns_of(push: Array, values: Array) -> tuple[float, Array]:
 
 
 def draw_map(ax: Axes, data: xr.Dataset, largest: float) -> Any:
-    """Force per length of the way over arc length and push; colours end at ``largest`` [N/m]."""
+    """Force per length of the path over arc length and push; colours end at ``largest`` [N/m]."""
     ax.set_xlabel(PUSH_LABEL)
     ax.set_ylabel("along the lumen [mm]")
     ax.grid(visible=False)
@@ -66,7 +66,7 @@ def draw_map(ax: Axes, data: xr.Dataset, largest: float) -> Any:
     fed = 1e3 * float(data.attrs["length_scale"])
     ax.plot([0.0, last], [0.0, fed * last], color=style.MUTED, linewidth=0.7, dashes=(4, 3))
     ax.set_ylim(0.0, end)
-    words = "dashed: length fed"
+    words = "dashed: insertion"
     if _elsewhere(data) > ELSEWHERE:
         words += "\nnot shown: what presses\nin other branches"
     ax.text(
@@ -77,7 +77,7 @@ def draw_map(ax: Axes, data: xr.Dataset, largest: float) -> Any:
 
 
 def _elsewhere(data: xr.Dataset) -> float:
-    """Part of the wall's force that is not on the way to the target, where it is largest."""
+    """Part of the wall's force that is not on the path to the target, where it is largest."""
     spacing = 2.0 * float(data["arc"].values[0])
     shown, whole = spacing * data["lumen_force"].values.sum(axis=1), data["wall_force"].values
     return float(np.max((whole - shown) / (whole.max(initial=0.0) or 1.0), initial=0.0))
@@ -116,6 +116,6 @@ def _draw_run(ax: Axes, data: xr.Dataset, *, dashed: bool = False) -> Iterator[f
 
 
 def most(runs: list[xr.Dataset]) -> float:
-    """Largest force per length of the way in some runs [N/m]; 1 if there is none."""
+    """Largest force per length of the path in some runs [N/m]; 1 if there is none."""
     known = [run["lumen_force"].values for run in runs if "lumen_force" in run]
     return max((float(values.max(initial=0.0)) for values in known), default=0.0) or 1.0

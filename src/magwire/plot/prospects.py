@@ -31,10 +31,10 @@ def draw(
     Parameters
     ----------
     tubes
-        Points, shape (q, 3), and radius, shape (q,), of the way to each outlet by its name [m].
+        Points, shape (q, 3), and radius, shape (q,), of the path to each outlet by its name [m].
     fields
-        How far the tip came [m] and flux density [T] on the way to each outlet, shapes (n,); what
-        lies past the farthest is not reached. On a part that ways share, the largest field counts.
+        How far the tip came [m] and flux density [T] on the path to each outlet, shapes (n,); what
+        lies past the farthest is not reached. On a part that paths share, the largest field counts.
 
     Returns
     -------
@@ -72,7 +72,7 @@ def save(
 def _needed(
     name: str, parts: Mapping[str, shapes.Branch], fields: Mapping[str, tuple[Array, Array]]
 ) -> Array:
-    """Largest flux density at each point of a way [mT]; NaN where no wire got."""
+    """Largest flux density at each point of a path [mT]; NaN where no wire got."""
     own = parts[name]
     needed = np.full(len(own.points), np.nan)
     for other, (arc, flux) in fields.items():
@@ -98,7 +98,7 @@ def _draw_way(
     needed: Array,
     scale: ScalarMappable,
 ) -> None:
-    """Draw what a way does not share with those before it."""
+    """Draw what a path does not share with those before it."""
     part = parts[name]
     start = shapes.leaves(part, before)
     own = shapes.Branch(part.points[start:], part.radius[start:])

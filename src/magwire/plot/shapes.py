@@ -203,7 +203,7 @@ def _outside(wall: tuple[Array, Array, Array], others: list[Branch]) -> tuple[Ar
 
 
 def leaves(part: Branch, before: list[Branch]) -> int:
-    """Index of the point after which a way is not one with those before it any more."""
+    """Index of the point after which a path is not one with those before it any more."""
     if not before:
         return 0
     points = np.concatenate([other.points for other in before])

@@ -30,7 +30,7 @@ COMPONENTS = ("#0072b2", "#d55e00", "#009e73")
 PUSH = LinearSegmentedColormap.from_list(
     "push", ["#f0b429", "#d1793b", "#a0476a", "#5c3a86", "#1d2f6f"]
 )
-"""Colour of a wire by its feed: light when little is fed, dark in the end."""
+"""Colour of a wire by its feed: light when little is inserted, dark in the end."""
 
 # From white, which is a wall that nothing presses on.
 PRESSURE = LinearSegmentedColormap.from_list(

@@ -21,7 +21,7 @@ ROWS = (
     ("max_tip_force", 1e3, "peak force\non the tip [mN]"),
     ("max_wall_force", 1e3, "peak force\non the wire [mN]"),
     ("peak_field", 1e3, "peak field [mT]"),
-    ("fed", 1e3, "fed [mm]"),
+    ("fed", 1e3, "insertion [mm]"),
 )
 """Variable, factor, label."""
 SHOWN = {"m": (1e3, "mm"), "T": (1e3, "mT"), "Pa": (1e-6, "MPa"), "A/m": (1e-3, "kA/m")}
@@ -48,7 +48,7 @@ def draw_sweep(table: xr.Dataset) -> Figure:
     -------
     Figure
         A column for each parameter; rows for the peak forces on tip and wire, peak field
-        and fed length.
+        and insertion length.
     """
     names = _varied(table)
     with mpl.rc_context(style.RC):

@@ -1,4 +1,4 @@
-"""The picture of a vessel: its tubes in space, and the radius along the way to each outlet."""
+"""The picture of a vessel: its tubes in space, and the radius along the path to each outlet."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def draw(
     Parameters
     ----------
     tubes
-        Points, shape (n, 3), and radius, shape (n,), of the way to each outlet by its name [m].
+        Points, shape (n, 3), and radius, shape (n,), of the path to each outlet by its name [m].
     wire
         Radius of a wire to compare with [m].
     surface

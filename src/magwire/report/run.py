@@ -89,13 +89,13 @@ def _course(result: Result) -> dict[str, str]:
     """How far it went, and by what kind of motion."""
     fed = show(float(result.feed[-1]), "length") if result.feed.size else "nothing"
     rows = {
-        "fed": f"{fed} in {result.steps} steps, {_simulated(result):.4g} s simulated",
+        "inserted": f"{fed} in {result.steps} steps, {_simulated(result):.4g} s simulated",
         "motion": result.motion,
     }
     if result.motion == "quasi-static":
         rows["motion"] += ", an equilibrium at every step"
         rows["largest move"] = (
-            f"{_short(result.largest_move)} beyond what was fed, between two records"
+            f"{_short(result.largest_move)} beyond what was inserted, between two records"
         )
     unstable = np.flatnonzero(~result.stable)
     rows["stable"] = "at every record"
@@ -191,7 +191,7 @@ def _steering(result: Result) -> dict[str, str]:
     if not np.isnan(result.largest_tip_departure):
         at = float(result.feed[np.nanargmax(result.tip_departure)])
         away = _short(result.largest_tip_departure)
-        rows["tip off the plan"] = f"by {away} at most, at a feed of {show(at, 'length')}"
+        rows["model error"] = f"{away} at most at the tip, at a feed of {show(at, 'length')}"
     return rows
 
 

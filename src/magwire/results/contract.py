@@ -79,7 +79,9 @@ class Constant:
 
 VARIABLES: dict[str, Variable] = {
     "time": Variable(("time",), "s", "simulated time", lambda r, _: r.time),
-    "feed": Variable(("time",), "m", "length of wire fed into the lumen", lambda r, _: r.feed),
+    "feed": Variable(
+        ("time",), "m", "insertion: length of wire inside the lumen", lambda r, _: r.feed
+    ),
     "position": Variable(
         ("time", "node", "xyz"), "m", "positions of the nodes", lambda r, _: r.position
     ),
@@ -181,7 +183,10 @@ VARIABLES: dict[str, Variable] = {
         ("time",), "s", "time spent since the start of the run", lambda r, _: r.totals.wall_time
     ),
     "normalized_push": Variable(
-        ("time",), "1", "fed length over length of the wire", lambda r, i: r.feed / i.scales.length
+        ("time",),
+        "1",
+        "insertion length over length of the wire",
+        lambda r, i: r.feed / i.scales.length,
     ),
     "normalized_field": Variable(
         ("time", "xyz"),
@@ -230,18 +235,18 @@ DERIVED: dict[str, Derived] = {
     "lumen_force": Derived(
         ("time", "arc"),
         "N/m",
-        "force of the wall per length of the way to the target, smoothed",
+        "force of the wall per length of the path to the target, smoothed",
         lambda c, at: forces.per_way(at, c["position"], c[NODE_FORCE]),
     ),
 }
 """By name, each after those that it follows from."""
 
 CONSTANTS: dict[str, Constant] = {
-    "arc": Constant(("arc",), "m", "arc length of the way to the target", lambda _, at: at.arc),
+    "arc": Constant(("arc",), "m", "arc length of the path to the target", lambda _, at: at.arc),
     "way": Constant(
         ("arc", "xyz"),
         "m",
-        "centreline of the way to the target",
+        "centreline of the path to the target",
         lambda _, at: at.point(at.arc)[:, :3],
     ),
     "centreline": Constant(

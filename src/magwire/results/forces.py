@@ -19,15 +19,15 @@ from magwire.engine.record import patch_length
 Array = NDArray[np.float64]
 
 SHARE = 0.95  # of the wall's force on the wire, which its contact length carries
-BINS = 5  # places of the way in a patch
-MOST_BINS = 400  # on the whole way
-SAMPLES = 10  # of the way in a bin, to find where a node is
-BESIDE = 1.05  # of the way's radius: nodes farther from it are in another branch
+BINS = 5  # places of the path in a patch
+MOST_BINS = 400  # on the whole path
+SAMPLES = 10  # of the path in a bin, to find where a node is
+BESIDE = 1.05  # of the path's radius: nodes farther from it are in another branch
 
 
 @dataclass(frozen=True)
 class Layout:
-    """Where forces are summed: along a wire of evenly spaced nodes, and along its way.
+    """Where forces are summed: along a wire of evenly spaced nodes, and along its path.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class Layout:
     magnet
         Where the distal magnet begins and ends on the wire [m]; NaN without one.
     way
-        Points and radius of the way from the entrance to the target, densely along it, shape
+        Points and radius of the path from the entrance to the target, densely along it, shape
         (q, 4) [m]; no rows in open space.
     """
 
@@ -64,14 +64,14 @@ class Layout:
 
     @cached_property
     def _along(self) -> Array:
-        """Arc parameter of the points of the way, shape (q,) [m]."""
+        """Arc parameter of the points of the path, shape (q,) [m]."""
         steps = np.linalg.norm(np.diff(self.way[:, :3], axis=0), axis=1)
         found: Array = np.concatenate(([0.0], np.cumsum(steps)))
         return found
 
     @cached_property
     def arc(self) -> Array:
-        """Places along the way at which its forces are given, shape (bins,) [m]."""
+        """Places along the path at which its forces are given, shape (bins,) [m]."""
         if len(self.way) == 0:
             return np.zeros(0)
         whole = float(self._along[-1])
@@ -80,19 +80,19 @@ class Layout:
         return found
 
     def point(self, arc: Array) -> Array:
-        """Points and radius of the way at arc parameters, shape (n, 4) [m]."""
+        """Points and radius of the path at arc parameters, shape (n, 4) [m]."""
         columns = [np.interp(arc, self._along, column) for column in self.way.T]
         return np.stack(columns, axis=-1)
 
     @cached_property
     def _samples(self) -> tuple[Array, Array, KDTree]:
-        """Arc parameters [m] and radii [m] of finely spaced points of the way; and the points."""
+        """Arc parameters [m] and radii [m] of finely spaced points of the path; and the points."""
         arc = np.linspace(0.0, self._along[-1], SAMPLES * len(self.arc) + 1)
         found = self.point(arc)
         return arc, found[:, 3], KDTree(found[:, :3])
 
     def locate(self, points: Array) -> tuple[Array, NDArray[np.bool_]]:
-        """Arc parameter on the way of points, shape (n,) [m]; and whether they are in it."""
+        """Arc parameter on the path of points, shape (n,) [m]; and whether they are in it."""
         arc, radius, tree = self._samples
         away, nearest = tree.query(points)
         return arc[nearest], away <= BESIDE * radius[nearest]
@@ -181,10 +181,10 @@ def contact_length(layout: Layout, density: Array) -> Array:
 
 
 def per_way(layout: Layout, position: Array, force: Array) -> Array:
-    """Force per length of the way at ``arc``, smoothed by a hat, shape (t, bins) [N/m].
+    """Force per length of the path at ``arc``, smoothed by a hat, shape (t, bins) [N/m].
 
-    A node counts where the way is nearest to it. What presses in another branch is left out. The
-    hat is mirrored at the ends of the way.
+    A node counts where the path is nearest to it. What presses in another branch is left out. The
+    hat is mirrored at the ends of the path.
     """
     arc, records = layout.arc, len(force)
     found = np.zeros((records, len(arc)))

@@ -178,7 +178,7 @@ class Result:
 
     @property
     def first_contact(self) -> float | None:
-        """Fed length at which some node first felt the wall [m]; None if none did."""
+        """Insertion length at which some node first felt the wall [m]; None if none did."""
         feed = self._number("first_contact_feed")
         return None if np.isnan(feed) else feed
 
@@ -286,7 +286,7 @@ class Result:
 
     @property
     def largest_move(self) -> float:
-        """Largest way of a node from one record to the next, beyond what was fed [m].
+        """Largest move of a node from one record to the next, beyond what was inserted [m].
 
         In quasi-static motion much of it in one go is a wire that snaps: where it ends is one
         equilibrium of several, and only dynamic motion tells which a wire finds.
@@ -327,7 +327,7 @@ class Result:
 
     @property
     def feed(self) -> Array:
-        """Length of wire fed into the lumen, shape (t,) [m]."""
+        """Insertion: length of wire inside the lumen, shape (t,) [m]."""
         return self._array("feed")
 
     @property
@@ -435,7 +435,7 @@ class Result:
 
     @property
     def normalized_push(self) -> Array:
-        """Fed length over length of the wire, shape (t,)."""
+        """Insertion length over length of the wire, shape (t,)."""
         return self._array("normalized_push")
 
     @property

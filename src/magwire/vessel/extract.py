@@ -1,4 +1,4 @@
-"""Centrelines of a surface: the ways through its inside that keep farthest from its wall."""
+"""Centrelines of a surface: the paths through its inside that keep farthest from its wall."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from magwire.vessel.words import long, place
 
 FINENESS = 0.25  # edge length of a voxel, over the radius of the narrowest end
 SPACING = 0.25  # of the points of the wall, over that radius
-SHYNESS = 3.0  # power of the distance from the wall in the cost of a way
+SHYNESS = 3.0  # power of the distance from the wall in the cost of a path
 PULLS = 40  # steps towards the middle
 FIRST_PULL = 0.2  # length of the first one, over the radius
 SMALLEST = 1e-3  # radius of an end, over the size of the vessel
@@ -60,7 +60,7 @@ def extract(surface: Surface, choose: Choice = widest) -> Extracted:
 
     The ends are the open rims or, of a closed surface, its flat caps; if it has none, they are the
     tips of its branches. Where VMTK is installed, and there are rims or caps, the lines are its.
-    Otherwise the ways between the ends through the voxels inside are those of the least sum of
+    Otherwise the paths between the ends through the voxels inside are those of the least sum of
     length over distance from the wall to the power of ``SHYNESS``. Each is then pulled to where the
     ball that touches the wall is largest, and that ball's radius is the radius.
 
@@ -87,7 +87,7 @@ def extract(surface: Surface, choose: Choice = widest) -> Extracted:
             accuracy = _accuracy(lines, *wall_samples(hull.points, hull.wall, spread))
             notes = (*hull.notes, *notes, "The centrelines are by VMTK.", accuracy)
             return _result(lines, notes, named, hull)
-        notes = (*notes, "VMTK does not find the way to every end; magwire's own extraction does.")
+        notes = (*notes, "VMTK does not find the path to every end; magwire's own extraction does.")
     lines, named, accuracy = _through_voxels(hull, ends, choose)
     return _result(lines, (*hull.notes, *notes, accuracy), named, hull)
 
@@ -216,7 +216,7 @@ def _way(before: Indices, end: int) -> Indices:
 
 
 def _pulled(way: Array, tree: KDTree, cell: float, ends: tuple[End, End]) -> Array:
-    """The way, pulled across its direction to where the wall is farthest, and evened out."""
+    """The path, pulled across its direction to where the wall is farthest, and evened out."""
     points = _even(way, cell)
     mean = np.zeros_like(points)
     for step in range(PULLS):

@@ -142,9 +142,9 @@ class Network:
         return int(np.argmin(np.linalg.norm(self.points - point, axis=1)))
 
     def from_entrance(self, start: int) -> tuple[Network, Indices]:
-        """The network with its loops opened, and the point before each one on the way from a point.
+        """The network with its loops opened, and the point before each on the path from a point.
 
-        A loop is opened where it is farthest from that point: where two ways to it are as long.
+        A loop is opened where it is farthest from that point: where two paths to it are as long.
         The points before are of shape (n,), negative where there is none.
 
         Raises
@@ -193,7 +193,7 @@ class Network:
         return replace(self, edges=kept, ends=ends)
 
     def _before(self, start: int) -> Indices:
-        """The point before each one on the shortest way from a point, shape (n,)."""
+        """The point before each one on the shortest path from a point, shape (n,)."""
         before = dijkstra(self.edges, directed=False, indices=start, return_predecessors=True)[1]
         ways: Indices = before.astype(np.int64)
         return ways
@@ -264,7 +264,7 @@ class Network:
 
 
 def _sides(before: Indices, u: int, v: int) -> tuple[Indices, Indices]:
-    """The ways to two points from the last one that they share, which is left out."""
+    """The paths to two points from the last one that they share, which is left out."""
     one, seen = [u], {u: 0}
     while before[one[-1]] >= 0:
         one.append(int(before[one[-1]]))

@@ -1,4 +1,4 @@
-"""From a file to named tubes: units, lines, ways from the entrance to the ends, and a record."""
+"""From a file to named tubes: units, lines, paths from the entrance to the ends, and a record."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Found(NamedTuple):
     Attributes
     ----------
     ways
-        The ways to the ends; None for tubes that magwire has made and that stay as they are.
+        The paths to the ends; None for tubes that magwire has made and that stay as they are.
     lines
         The lines [m].
     entrance, ends
@@ -166,7 +166,7 @@ def _made(
     named: Mapping[str, Array] | None,
     wall: Surface | None,
 ) -> Found:
-    """The ways that lines make, once they are cleaned, joined and smoothed."""
+    """The paths that lines make, once they are cleaned, joined and smoothed."""
     cleaned = [clean(line, number) for number, line in enumerate(lines, start=1)]
     dropped = sum(part.dropped for part in cleaned)
     if dropped:

@@ -1,4 +1,4 @@
-"""A noisy way through a vessel made into a smooth one that stays inside of the vessel."""
+"""A noisy path through a vessel made into a smooth one that stays inside of the vessel."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ OUTSIDE = 0.04  # how far a ball may reach out of what the file says, over its r
 WHOLE = 0.5  # part of the smallest radius that has to be left
 GENTLE = 4  # points over which what the radius loses sets in
 RAISED = (1.5, 2.0, 3.0, 4.0)  # factors on the length of smoothing, around bends too sharp for it
-AROUND = 4.0  # half the way along which it is raised, over the radius
+AROUND = 4.0  # half the path along which it is raised, over the radius
 
 
 class Smoothed(NamedTuple):
-    """A smooth way.
+    """A smooth path.
 
     Attributes
     ----------
     points, radius
         Shapes (n, 3) and (n,).
     deviation
-        Distance of each point that went in from the way, shape (m,).
+        Distance of each point that went in from the path, shape (m,).
     narrowed
-        What was taken off the radius, since the way bends or tapers too sharply or comes too close
+        What was taken off the radius, since the path bends or tapers too sharply or comes too close
         to the wall there, shape (n,).
     raised
         Largest factor on the length of smoothing.
@@ -60,9 +60,9 @@ def smooth(
     original: Original | None = None,
     paces: Array | None = None,
 ) -> Smoothed:
-    """A smooth way near given points.
+    """A smooth path near given points.
 
-    Waves along it that are longer than ``2 pi length`` radii stay, shorter ones go: the way c
+    Waves along it that are longer than ``2 pi length`` radii stay, shorter ones go: the path c
     minimises the sum of |c - p|^2 and of the squares of its third derivative times ``length`` to
     the power of three, both with the arc length in radii. The radius is treated alike. It is then
     lowered where the lumen would be wider than its bend, would taper faster than a ball can, or
@@ -107,7 +107,7 @@ def smooth(
 
 
 def _tried(given: Array, lengths: Array, last: float, original: Original | None) -> Smoothed:
-    """The way with a length of smoothing at each of its points; the last step is of its own."""
+    """The path with a length of smoothing at each of its points; the last step is of its own."""
     found = _penalised(given, (lengths[:-3] / STEP) ** 6, last)
     wide = np.exp(found[:, 3])
     inner = wide

@@ -28,7 +28,7 @@ BETTER = 0.5  # how much less the distance must be for axes to be called flipped
 
 
 class Course(NamedTuple):
-    """The way to an outlet.
+    """The path to an outlet.
 
     Attributes
     ----------
@@ -43,7 +43,7 @@ class Course(NamedTuple):
     bend
         Smallest radius of curvature [m], and where.
     own
-        Length that no way before it shares [m].
+        Length that no path before it shares [m].
     """
 
     name: str
@@ -60,7 +60,7 @@ class Reach(NamedTuple):
     Attributes
     ----------
     fits
-        Whether it is thinner than the lumen all along the way.
+        Whether it is thinner than the lumen all along the path.
     force
         EI over the square of the tightest bend's radius [N]: about what the wall has to push
         with to bend the wire that much.
@@ -71,7 +71,7 @@ class Reach(NamedTuple):
 
 
 def courses(vessel: Vessel) -> list[Course]:
-    """The ways to all outlets, in their order."""
+    """The paths to all outlets, in their order."""
     found, before = [], np.zeros((0, 4))
     for name, tube in vessel.tubes.items():
         arcs = tube.curve.knots()
@@ -94,7 +94,7 @@ def reach(course: Course, radius: float, stiffness: float) -> Reach:
     Parameters
     ----------
     course
-        The way to it.
+        The path to it.
     radius
         Radius of the wire [m].
     stiffness

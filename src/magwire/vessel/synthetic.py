@@ -213,7 +213,7 @@ def coronary_tree(
 
 
 def _diagonal(stem: Branch, place: float, number: int, chance: np.random.Generator) -> Lumen:
-    """A side branch of an artery, at a part of its way."""
+    """A side branch of an artery, at a part of its path."""
     s = np.array([STEM + (0.1 + 0.65 * place) * (stem.length - STEM)])
     ball, ahead = stem.curve.at(s)[0], stem.curve.at(s, 1)[0, :3]
     up = np.array([0.0, 0.0, 1.0 if number % 2 == 0 else -1.0])

@@ -28,14 +28,14 @@ if TYPE_CHECKING:
 
 
 class Way(NamedTuple):
-    """What was done to one way from the entrance to an end.
+    """What was done to one path from the entrance to an end.
 
     Attributes
     ----------
     deviation
-        Largest and root mean square distance of the file's points from the way [m].
+        Largest and root mean square distance of the file's points from the path [m].
     narrowed
-        Most that was taken off the radius [m], because the way bends or tapers sharply there.
+        Most that was taken off the radius [m], because the path bends or tapers sharply there.
     where
         Where that is, shape (3,) [m].
     """
@@ -52,7 +52,7 @@ class Vessel:
     Attributes
     ----------
     balls
-        Points of the smooth way from the entrance to each other open end, and the radius there, by
+        Points of the smooth path from the entrance to each other open end, and the radius there, by
         the name of the end, shape (n, 4) [m].
     entrance
         Name of the end that is the entrance, or "point".
@@ -210,7 +210,7 @@ class Vessel:
         point = array(OWNER, "target", target, (3,), "m")
         off = {n: np.linalg.norm(b[:, :3] - point, axis=1) for n, b in self.balls.items()}
         least = min(float(distance.min()) for distance in off.values())
-        near = {  # a point on a trunk is on the way to several outlets: the closest one is meant
+        near = {  # a point on a trunk is on the path to several outlets: the closest one is meant
             name: len(distance) - int(np.argmin(distance))
             for name, distance in off.items()
             if distance.min() <= least + SAME * self.balls[name][int(np.argmin(distance)), 3]
@@ -246,7 +246,7 @@ def _balls(tube: Tube) -> Array:
 
 
 def _way(tube: Tube) -> Way:
-    """What was done to a way, from the entrance on."""
+    """What was done to a path, from the entrance on."""
     off, narrowed = tube.deviations(), tube.whole("narrowed")
     worst = int(np.argmax(narrowed))
     deviated = float(off.max(initial=0.0)), float(np.sqrt(np.mean(off**2))) if len(off) else 0.0

@@ -1,7 +1,7 @@
-"""The smooth ways from the entrance to the ends of a network; they share what they have in common.
+"""The smooth paths from the entrance to the ends of a network; they share what they have in common.
 
-A way is smoothed from a few radii before it leaves the ways before it: further up it is theirs,
-point by point. So the cost is that of the vessel, not of the sum of all ways, and a way that is
+A path is smoothed from a few radii before it leaves the paths before it: further up it is theirs,
+point by point. So the cost is that of the vessel, not of the sum of all paths, and a path that is
 too sharp moves no other.
 """
 
@@ -21,13 +21,13 @@ from magwire.vessel.words import long, place
 
 SPUR = 1.5  # shortest branch that counts, over the radius where it leaves
 TOLD = 0.5  # part of the radius that is lost, from which that is told
-LISTED = 8  # ways that are named one by one
-LEAD = 32.0  # how far before it leaves a way is smoothed, over radius and length of smoothing
+LISTED = 8  # paths that are named one by one
+LEAD = 32.0  # how far before it leaves a path is smoothed, over radius and length of smoothing
 
 
 @dataclass(frozen=True, eq=False)
 class Tube:
-    """A smooth way: that of another one up to some point, and its own from there on.
+    """A smooth path: that of another one up to some point, and its own from there on.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class Tube:
         return np.concatenate(parts[::-1])
 
     def deviations(self) -> Array:
-        """How far the file's points are from the way, from the entrance on [m]."""
+        """How far the file's points are from the path, from the entrance on [m]."""
         parts, tube, stop = [self.deviation], self, STEP * self.shared
         while tube.parent is not None:
             tube = tube.parent
@@ -70,7 +70,7 @@ class Tube:
 
 
 class Ways(NamedTuple):
-    """The ways by the names of their ends, and what was left out, a sentence each."""
+    """The paths by the names of their ends, and what was left out, a sentence each."""
 
     tubes: dict[str, Tube]
     notes: tuple[str, ...]
@@ -79,14 +79,14 @@ class Ways(NamedTuple):
 def ways(
     network: Network, start: int, before: Indices, smoothing: float, original: Original
 ) -> Ways:
-    """The smooth ways from a point of a network to its ends.
+    """The smooth paths from a point of a network to its ends.
 
     Parameters
     ----------
     network
         The network [m].
     start, before
-        The entrance, and the point before each one on the way from it.
+        The entrance, and the point before each one on the path from it.
     smoothing
         Length in radii.
     original
@@ -105,12 +105,12 @@ def ways(
         paces[nodes[1:]] = paces[nodes[0]] + np.cumsum(step[nodes[1:]])
         made = _tube(network, before, nodes, paces, (smoothing, original, owner.get(nodes[0])))
         if not made[0].whole:
-            notes.append(f"The way to '{name}' is left out: it {_why(made[0])}.")
+            notes.append(f"The path to '{name}' is left out: it {_why(made[0])}.")
             continue
         if made[0].raised > 1.0:
             over = made[0].raised * smoothing
             notes.append(
-                f"The way to '{name}' is smoothed over {over:.2g} radii where its bends are too "
+                f"The path to '{name}' is smoothed over {over:.2g} radii where its bends are too "
                 f"sharp for {smoothing:g}."
             )
         tubes[name] = made[1]
@@ -119,7 +119,7 @@ def ways(
 
 
 def _own(end: int, before: Indices, owner: dict[int, Tube]) -> list[int]:
-    """Points of a way from the last one that another way has."""
+    """Points of a path from the last one that another path has."""
     nodes = [end]
     while nodes[-1] not in owner and before[nodes[-1]] >= 0:
         nodes.append(int(before[nodes[-1]]))
@@ -133,7 +133,7 @@ def _tube(
     paces: Array,
     means: tuple[float, Original, Tube | None],
 ) -> tuple[Smoothed, Tube]:
-    """What smoothing makes of a way's own part and the lead before it, and the tube."""
+    """What smoothing makes of a path's own part and the lead before it, and the tube."""
     smoothing, original, parent = means
     split, factor = float(paces[nodes[0]]), 1.0
     while True:
@@ -172,7 +172,7 @@ def _tube(
 
 
 def _narrowed(tubes: dict[str, Tube]) -> list[str]:
-    """Which ways are much narrower than the vessel somewhere, a sentence."""
+    """Which paths are much narrower than the vessel somewhere, a sentence."""
     told = []
     for name, tube in tubes.items():
         wide = tube.radius + tube.narrowed
@@ -184,13 +184,13 @@ def _narrowed(tubes: dict[str, Tube]) -> list[str]:
         return []
     more = f", and {len(told) - LISTED} more" if len(told) > LISTED else ""
     return [
-        "Ways are narrower than the vessel where they bend or taper too sharply for it: "
+        "Paths are narrower than the vessel where they bend or taper too sharply for it: "
         f"{', '.join(told[:LISTED])}{more}. The walls of trunks stay."
     ]
 
 
 def _why(found: Smoothed) -> str:
-    """Why a way is left out."""
+    """Why a path is left out."""
     closed = int(np.argmin(found.radius))
     return (
         f"bends so sharply near {place(found.points[closed])} that a lumen of radius "
@@ -202,7 +202,7 @@ def _why(found: Smoothed) -> str:
 def _without_spurs(
     network: Network, start: int, course: tuple[Indices, Array], ends: dict[str, int]
 ) -> tuple[dict[str, int], list[str]]:
-    """Ends whose ways leave all others for more than about a radius, and what to say of others."""
+    """Ends whose paths leave all others for more than about a radius, and what to say of others."""
     before, steps = course
     users: dict[int, int] = {}
     for end in ends.values():
@@ -217,7 +217,7 @@ def _without_spurs(
             own.append(int(before[own[-1]]))
         length, last = float(steps[own[:-1]].sum()), own[-1]
         if last == start and users[last] == 1:
-            continue  # no other way
+            continue  # no other path
         if length < SPUR * network.radius[last]:
             del kept[name]
             notes.append(f"A spur of {long(length)}, '{name}', is left out.")

@@ -96,13 +96,13 @@ def branches(data: xr.Dataset) -> list[Array]:
 
 
 def facts(data: xr.Dataset) -> str:
-    """How the run went, in a line: motion, steering, how it ended, and what was fed."""
+    """How the run went, in a line: motion, steering, how it ended, and the insertion length."""
     navigate = looks.tables(data).get("navigate", {})
     method = navigate.get("method", "") if isinstance(navigate, dict) else ""
     steering = {"": "", "none": "not steered"}.get(method, f"steered: {method}")
     fed = 1e3 * float(data["feed"].values[-1])
     words = [str(data.attrs["motion"]), steering, str(data.attrs["status"])]
-    words.append(f"fed {fed:.1f} mm")
+    words.append(f"inserted {fed:.1f} mm")
     return " · ".join(_one_line(word) for word in words if word)
 
 

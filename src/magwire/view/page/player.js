@@ -170,7 +170,7 @@
         const k = this.records[which];
         scene.show({ points: run.points(k), forces: run.forces(k), field: run.field(k) });
         const [fed, strength] = [1e3 * run.arrays.feed[k], 1e3 * Math.hypot(...run.field(k))];
-        readings.textContent = `fed ${fed.toFixed(1)} mm   field ${strength.toFixed(1)} mT${run.arrays.stable[k] > 0 ? "" : "   unstable"}`;
+        readings.textContent = `inserted ${fed.toFixed(1)} mm   field ${strength.toFixed(1)} mT${run.arrays.stable[k] > 0 ? "" : "   unstable"}`;
       });
       this.panels.forEach((panel) => panel.show(this.records));
       this.slider.value = this.time;
