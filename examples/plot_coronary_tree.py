@@ -40,7 +40,7 @@ for name, tube in vessel.tubes.items():
     )
 
 # %%
-# The tree and, per artery, the radius along the path. A wire of 0.6 mm diameter fits into all of it.
+# The tree and, per artery, the radius along the path. A wire of 0.6 mm diameter fits all of it.
 
 wire_radius = 0.3e-3
 figure = plt.figure(figsize=(8.6, 4.4))
