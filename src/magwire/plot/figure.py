@@ -76,7 +76,8 @@ def draw(data: xr.Dataset, passive: xr.Dataset | None = None) -> Figure:
         push = np.concatenate([run["normalized_push"].values for run in runs])
         panels = [force, field, clearance, *_draw_loads(below_it[0], runs)]
         for row in below_it[1:]:
-            left, right = row.subplots(1, 2)
+            # a figure each: the layout of one would let the second scale meet its neighbour's label
+            left, right = (half.subplots() for half in row.subfigures(1, 2))
             friction.draw_friction(left, data)
             friction.draw_slip(right, data)
             panels += [left, right]
