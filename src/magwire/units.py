@@ -302,7 +302,7 @@ def parse_column(texts: Sequence[str], unit: str, dimension: str) -> list[float]
     texts
         Numbers without their unit.
     unit
-        Of all of them.
+        The one that they all have.
     dimension
         A key of ``DIMENSIONS``.
 

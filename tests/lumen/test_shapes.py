@@ -107,14 +107,16 @@ FAULTS = {
     "radius of Branch must be positive; received 0 m at point 1": lambda: Lumen.through(
         [[0, 0, 0], [1, 0, 0]], [0.1, 0.0]
     ),
-    "points of Branch must be finite": lambda: Lumen.through([[0, 0, 0], [np.nan, 0, 0]], 0.1),
+    "points of Lumen.through must be finite": lambda: Lumen.through(
+        [[0, 0, 0], [np.nan, 0, 0]], 0.1
+    ),
     "points of Branch must be at least two points; received 1": lambda: Lumen.through(
         [[0, 0, 0]], 0.1
     ),
     "points of Branch must be distinct; points 1 and 2 are both (1, 0, 0) m": lambda: Lumen.through(
         [[0, 0, 0], [1, 0, 0], [1, 0, 0]], 0.1
     ),
-    "points of Branch must have shape (n, 3); received shape (2, 2)": lambda: Lumen.through(
+    "points of Lumen.through must have shape (n, 3); received shape (2, 2)": lambda: Lumen.through(
         [[0, 0], [1, 0]], 0.1
     ),
     "radius of Branch must have shape (2,); received shape (3,)": lambda: Lumen.through(
