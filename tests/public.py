@@ -43,7 +43,7 @@ def _members(kind: type) -> dict[str, type]:
         name: base
         for base in reversed(ours)
         for name in vars(base)
-        if not name.startswith("_") and name not in given  # which the signature lists
+        if not name.startswith(("_", "model_")) and name not in given  # pydantic's, listed
     }
 
 

@@ -242,9 +242,7 @@ TO_MEND = (
     "batch.py",
     "cli/commands/animate.py",
     "cli/commands/lumen.py",
-    "cli/pictures.py",
     "cli/vessel_files.py",
-    "cli/vessels.py",
     "engine/statics.py",
     "env/baselines.py",
     "env/episodes.py",
@@ -252,7 +250,6 @@ TO_MEND = (
     "env/task.py",
     "env/vector_env.py",
     "env/wire_env.py",
-    "lumen_commands.py",
     "navigate/model.py",
     "navigate/navigator.py",
     "operate/assist.py",
@@ -274,3 +271,12 @@ def test_texts_of_parameters_can_be_read_on_their_own(source: Path) -> None:
     if source.relative_to(SOURCES).as_posix() in TO_MEND:
         pytest.skip("being written elsewhere")
     assert OPENS_WITH_OF.findall(source.read_text(encoding="utf-8")) == []
+
+
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+NOT_OURS = re.compile(r"at the helm|off the plan|looks? out of the|fed length|length fed")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
+def test_pages_use_the_words_of_the_glossary(page: Path) -> None:
+    assert NOT_OURS.findall(page.read_text(encoding="utf-8")) == []

@@ -25,7 +25,7 @@ COUNTS = ("newton_iterations", "factorisations", "retries")
 class Extent:
     """How much is measured.
 
-    ``push`` is the fed length over the wire's length, ``points`` those of a centreline,
+    ``push`` is the insertion over the wire's length, ``points`` those of a centreline,
     ``branch_points`` those of each of the three branches of a tree.
     """
 

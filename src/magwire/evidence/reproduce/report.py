@@ -102,7 +102,7 @@ def compose(chapters: Sequence[Chapter], *, whole: bool, seconds: float) -> list
     blocks: list[Block] = [
         "Tong, Hao, Li, Sun, Liu, Wang, Huang: Real-time simulation enabled navigation control of "
         "magnetic soft continuum robots in confined lumens. Its Results, computed again: the "
-        "figures, and every claim next to what magwire finds. X is the length fed over the wire's "
+        "figures, and every claim next to what magwire finds. X is the insertion over the wire's "
         "length L, F* is force times L²/EI, B* is field times |M| L²/EI.",
         f"magwire {magwire.__version__}, {machine}; {seconds:.0f} s."
         + ("" if whole else " This is only a part of the page."),
