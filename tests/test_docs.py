@@ -237,26 +237,6 @@ def test_reproduce_page_names_every_part() -> None:
     assert named == list(PARTS)
 
 
-# Being written elsewhere: each is taken off this list with the next change to it.
-TO_MEND = (
-    "batch.py",
-    "cli/commands/animate.py",
-    "cli/commands/lumen.py",
-    "cli/vessel_files.py",
-    "engine/statics.py",
-    "env/baselines.py",
-    "env/episodes.py",
-    "env/picture.py",
-    "env/task.py",
-    "env/vector_env.py",
-    "env/wire_env.py",
-    "navigate/model.py",
-    "navigate/navigator.py",
-    "operate/assist.py",
-    "report/vessel.py",
-    "scenario/kind.py",
-    "simulation.py",
-)
 SOURCES = ROOT / "src" / "magwire"
 OPENS_WITH_OF = re.compile(r"^( +)[\w, ]+\n\1    Of .*$", re.MULTILINE)
 
@@ -268,8 +248,6 @@ OPENS_WITH_OF = re.compile(r"^( +)[\w, ]+\n\1    Of .*$", re.MULTILINE)
 )
 def test_texts_of_parameters_can_be_read_on_their_own(source: Path) -> None:
     """A rendered table has the name in another cell: "Of the wire [m]" says nothing there."""
-    if source.relative_to(SOURCES).as_posix() in TO_MEND:
-        pytest.skip("being written elsewhere")
     assert OPENS_WITH_OF.findall(source.read_text(encoding="utf-8")) == []
 
 

@@ -270,3 +270,21 @@ def test_sentences(make: Callable[[], object], message: str) -> None:
 
 def test_three_components_are_a_field() -> None:
     assert mw.Simulation(WIRE, LUMEN, field=[0.0, 0.01, 0.0]).field == mw.UniformField((0, 0.01, 0))
+
+
+def test_what_runs_a_simulation_is_looked_at() -> None:
+    wire = mw.Wire.uniform(0.05, 5e-4, 3e6, 1e6, 2e3, 21)
+    simulation = mw.Simulation(wire, mw.Lumen.straight(0.1, 3e-3))
+    feed = mw.Feed(1e-3, 0.01)
+    for call, said in (
+        (lambda: simulation.run(0.02), "feed of Simulation.run must be a Feed; received 0.02"),
+        (lambda: simulation.run(feed, "stable"), "navigator of Simulation.run must be a navigator"),
+        (lambda: simulation.run(feed, mw.TipNavigator), "received the class TipNavigator itself"),
+        (lambda: simulation.session(navigator=3), "navigator of Simulation.session must be"),
+        (lambda: simulation.equilibrium(0.01, mw.UniformField), "received the class UniformField"),
+        (lambda: simulation.equilibrium(0.01, start=3), "start of Simulation.equilibrium must be"),
+    ):
+        with pytest.raises(mw.InputError, match=said):
+            call()
+    assert repr(simulation).startswith("Simulation of\n  Wire of 50 mm")
+    assert repr(simulation.equilibrium(0.01)).startswith("<Equilibrium: stable, 10 mm inserted")

@@ -37,12 +37,12 @@ class Sight(NamedTuple):
     tip, tip_direction
         Position [m] and unit tangent of the tip, shape (n, 3).
     tip_force, wall_force, patch_force
-        Of the wall: on the tip node, summed over the wire, and the largest sum over a stretch of
+        The wall's: on the tip node, summed over the wire, and the largest sum over a stretch of
         5 mm, or of two edges if they are longer; shape (n,) [N].
     clearance
         Smallest clearance of the nodes past the guide, shape (n,) [m]; infinity if there are none.
     inputs
-        Of the actuator, shape (n, m).
+        Those of the actuator, shape (n, m).
     tip_arc
         How far the tip has come on the way to the lumen's target, shape (n,) [m]; NaN where it is
         off that way, such as in another branch.
@@ -221,12 +221,12 @@ class Batch:
         Parameters
         ----------
         feed_speed, twist_rate
-            Of the guides [m/s, rad/s], one value or shape (n,).
+            Those of the guides [m/s, rad/s], one value or shape (n,).
         inputs
-            Of the actuators at the interval's end, reached linearly, shape (m,) or (n, m); they
+            The actuators' at the interval's end, reached linearly, shape (m,) or (n, m); they
             stay as they are if left out.
         duration
-            Of the interval [s], one value or shape (n,); one time step if left out.
+            That of the interval [s], one value or shape (n,); one time step if left out.
         only
             Which wires move, booleans of shape (n,); the others stay as they are.
 

@@ -17,8 +17,9 @@ from magwire.engine.plant import Plant
 from magwire.engine.record import Motion, RunInfo
 from magwire.engine.statics import Equilibrium, find_equilibrium
 from magwire.engine.system import Release, System
-from magwire.errors import InputError, array, one_of, positive
-from magwire.field import FieldSource, UniformField
+from magwire.engine.words import system_words
+from magwire.errors import InputError, array, instance, offering, one_of, positive
+from magwire.field import FieldSource, UniformField, as_field
 from magwire.interrupt import held_back_interrupt
 from magwire.lumen import Lumen
 from magwire.navigate import NavigationError, Navigator, Steering
@@ -56,7 +57,7 @@ class Simulation:
     contact
         The wall's barrier.
     friction
-        Of the wall; none if left out. An equilibrium is one without friction: with it, it would
+        The wall's; none if left out. An equilibrium is one without friction: with it, it would
         depend on the way there. A quasi-static run, or session, is such a way.
     actuator
         What makes a field from the inputs of whoever steers; three components of a uniform flux
@@ -66,7 +67,7 @@ class Simulation:
     gravity
         Acceleration, shape (3,) [m/s^2].
     fluid_density
-        Of what fills the lumen [kg/m^3]; its buoyancy acts against gravity.
+        That of what fills the lumen [kg/m^3]; its buoyancy acts against gravity.
     tip_load
         Dead force on the tip, which keeps its direction in space, shape (3,) [N].
     release
@@ -84,7 +85,7 @@ class Simulation:
         wire: Wire,
         lumen: Lumen,
         *,
-        field: FieldSource | None = None,
+        field: FieldSource | ArrayLike | None = None,
         contact: Barrier | None = None,
         friction: Friction | None = None,
         actuator: Actuator | None = None,
@@ -105,7 +106,7 @@ class Simulation:
             fluid_density=fluid_density,
             tip_load=(float(load[0]), float(load[1]), float(load[2])),
             release=release,
-            background=UniformField() if field is None else field,
+            background=UniformField() if field is None else as_field("Simulation", field),
             friction=friction,
             actuator=actuator,
         )
@@ -115,6 +116,9 @@ class Simulation:
                 f"Input wire of Simulation must be thinner than the lumen, whose smallest radius "
                 f"is {narrowest:.6g} m; received a wire radius of {wire.radius:.6g} m."
             )
+
+    def __repr__(self) -> str:
+        return system_words(self.system, "Simulation")
 
     @property
     def field(self) -> FieldSource:
@@ -177,6 +181,8 @@ class Simulation:
         """
         from magwire.results import Writer
 
+        instance("Simulation.run", "feed", feed, Feed)
+        _check_navigator("Simulation.run", navigator)
         inertia = one_of("Simulation", "motion", motion, ("dynamic", "quasi-static")) == "dynamic"
         positive("Simulation", "record_every", record_every, "m")
         if isinstance(navigator, Steering):
@@ -257,6 +263,7 @@ class Simulation:
         """
         from magwire.results import Writer
 
+        _check_navigator("Simulation.session", navigator)
         inertia = one_of("Simulation", "motion", motion, ("dynamic", "quasi-static")) == "dynamic"
         plant = Plant(self.system)
         if feed != 0.0:
@@ -296,7 +303,7 @@ class Simulation:
             Uniform flux density, shape (3,) [T], or a field source; the simulation's own field if
             left out.
         inputs
-            Of the actuator, shape (m,), on top of the field; zero if left out.
+            Those of the actuator, shape (m,), on top of the field; zero if left out.
         start
             Equilibrium to start from; where its feed differs, the wire is fed from there by
             equilibria. Left out: the wire laid along the centreline. A wire in a lumen can have
@@ -321,13 +328,9 @@ class Simulation:
         ConvergenceError
             If Newton's method fails; carries the last iterate and says what to try.
         """
-        if field is None:
-            source = self.field
-        elif isinstance(field, FieldSource):
-            source = field
-        else:
-            flux = array("Simulation", "field", field, (3,), "T")
-            source = UniformField((float(flux[0]), float(flux[1]), float(flux[2])))
+        instance("Simulation.equilibrium", "start", start, Equilibrium, or_none=True)
+        instance("Simulation.equilibrium", "hold", hold, Hold, or_none=True)
+        source = self.field if field is None else as_field("Simulation", field)
         return find_equilibrium(
             self.system, source, feed, inputs=inputs, start=start, twist=twist, hold=hold
         )
@@ -340,7 +343,7 @@ class Simulation:
         Parameters
         ----------
         position
-            Of the nodes, shape (nodes, 3) [m].
+            That of the nodes, shape (nodes, 3) [m].
         """
         nodes = array("Simulation.tip_arc", "position", position, (None, 3), "m")
         return float(self.system.path.locate(nodes[-1:])[0][0])
@@ -373,6 +376,13 @@ class Simulation:
             return np.zeros((0, 4))
         curve = self.system.path.branches[0].curve
         return curve.at(np.linspace(0.0, curve.length, WAY_POINTS))
+
+
+def _check_navigator(owner: str, navigator: object) -> None:
+    """Refuse what can neither steer nor start somebody who does."""
+    if navigator is not None:
+        expected = "a navigator such as TipNavigator()"
+        offering(owner, "navigator", navigator, [("plan",), ("start",)], expected)
 
 
 def _steps(length: float, feed: Feed, time_step: float) -> int:

@@ -22,7 +22,7 @@ def write(vessel: Vessel, target: Spot | None, out: Path, *, force: bool) -> Non
     vessel
         The vessel.
     target
-        Of the scenario's table.
+        That of the scenario's table.
     out
         The file to write.
     force

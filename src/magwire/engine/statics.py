@@ -17,6 +17,7 @@ from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.engine.tip import tip_direction
 from magwire.engine.uneven import Settled, settle
+from magwire.engine.words import equilibrium_words
 from magwire.errors import ConvergenceError, InputError, array, finite, within
 from magwire.field import FieldSource
 from magwire.kernels.arrays import Mouth, State
@@ -27,7 +28,7 @@ Array = NDArray[np.float64]
 FEWEST = 4  # nodes past the guide of a wire whose last edge is held
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Equilibrium:
     """A wire at rest, and what certifies it (P-16).
 
@@ -40,9 +41,9 @@ class Equilibrium:
     wall_force
         Force of the wall on each node, shape (nodes, 3) [N].
     push_force, guide_torque
-        Of the guide on the wire in front of it: along the guide [N], about it [N m] (P-38).
+        Those of the guide on the wire in front of it: along the guide [N], about it [N m] (P-38).
     clearance
-        Of each node to the wall, shape (nodes,) [m]; NaN on the guide.
+        That of each node to the wall, shape (nodes,) [m]; NaN on the guide.
     stable
         Whether the tangent stiffness is positive definite. An unstable equilibrium is one that
         a real wire leaves.
@@ -63,6 +64,9 @@ class Equilibrium:
     residual: float
     iterations: int
     point: Point = field(repr=False)
+
+    def __repr__(self) -> str:
+        return equilibrium_words(self)
 
     @property
     def tip(self) -> Array:

@@ -46,7 +46,7 @@ class Chance:
     Parameters
     ----------
     seed
-        Of the chance.
+        That of the chance.
     """
 
     def __init__(self, seed: int = 0) -> None:
@@ -113,7 +113,7 @@ def score(env: WireVectorEnv, policy: Policy, seeds: Sequence[int]) -> dict[str,
     policy
         Who acts.
     seeds
-        Of the episodes, as many as there are wires.
+        Those of the episodes, as many as there are wires.
 
     Returns
     -------

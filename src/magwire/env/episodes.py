@@ -46,7 +46,7 @@ class Episodes:
     Attributes
     ----------
     reward, terminated, truncated
-        Of the last action, shape (n,).
+        Those of the last action, shape (n,).
     info
         Arrays with a row for each wire, as the environments' documentation has them.
     """

@@ -67,7 +67,7 @@ class View:
         Parameters
         ----------
         nodes
-            Of the wire, shape (n, 3) [m].
+            Those of the wire, shape (n, 3) [m].
         magnet
             Which of its edges are magnetised, shape (n - 1,).
         goal

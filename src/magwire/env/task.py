@@ -40,7 +40,7 @@ class Task:
     feed_speed, twist_rate
         What an action of one stands for [m/s, rad/s].
     input_limit, input_rate
-        Of the actuator's inputs: what an action of one stands for, and how fast they may change. A
+        The actuator's inputs': what an action of one stands for, and how fast they may change. A
         uniform flux density [T, T/s].
     axes
         ``"path"``: the inputs of an action are components along the path at the tip and two normals

@@ -81,7 +81,7 @@ class WireVectorEnv(VectorEnv[Any, NDArray[np.float32], NDArray[Any]]):
         Parameters
         ----------
         seed
-            Of each wire, or of the first one: the others' follow it.
+            That of each wire, or of the first one: the others' follow it.
         options
             ``reset_mask``: which wires, booleans of shape (num_envs,), all if left out; ``feed``:
             length of wire past the entrance to start with [m].

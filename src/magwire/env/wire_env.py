@@ -105,7 +105,7 @@ class WireEnv(gymnasium.Env[Any, NDArray[np.float32]]):
         Parameters
         ----------
         seed
-            Of all chance from here on.
+            That of all chance from here on.
         options
             ``feed``: length of wire past the entrance to start with [m].
         """

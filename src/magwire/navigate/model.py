@@ -43,7 +43,7 @@ class View:
     offset_by_flux
         Shape (2, 3) [m/T].
     radius
-        Of the lumen where the tip is [m].
+        Those of the lumen where the tip is [m].
     eigenvalue
         Smallest eigenvalue of the tangent stiffness against the lumped mass [rad^2/s^2].
     eigenvalue_by_flux

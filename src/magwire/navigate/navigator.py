@@ -32,7 +32,7 @@ class Observation:
     goal
         Feed at which the run ends [m], if that is known: how far it pays to look ahead.
     speed
-        Of the feed at the moment [m/s], if that is known.
+        That of the feed at the moment [m/s], if that is known.
     """
 
     feed: float

@@ -45,7 +45,7 @@ class Assist:
         feed
             Length of wire past the entrance, at the end of the next step [m].
         speed
-            Of the guide [m/s]; negative retracts.
+            That of the guide [m/s]; negative retracts.
 
         Returns
         -------

@@ -40,7 +40,7 @@ def inspect(
     source
         The file, the folder or the files.
     units
-        Of its numbers; if left out, and if the file states none, the likeliest, which is no refusal
+        Its numbers'; if left out, and if the file states none, the likeliest, which is no refusal
         where it is the only plausible one.
     wire
         Texts by name: its ``diameter``, its ``modulus`` and the ``force`` that it may take.

@@ -116,7 +116,7 @@ class Family:
     Attributes
     ----------
     name
-        Of the table.
+        That of the table.
     selector
         The key that tells which kind it is; "" if the keys that only one kind has do.
     kinds

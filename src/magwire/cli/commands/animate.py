@@ -27,7 +27,7 @@ def animate(
     out
         File to write, .gif or .mp4 by its suffix; animation.gif next to the result if left out.
     width
-        Of the picture, in pixels.
+        That of the picture, in pixels.
     seconds
         How long it takes.
     force

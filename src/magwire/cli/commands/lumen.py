@@ -36,7 +36,7 @@ def inspect_lumen(
     wire
         Diameter of a wire, such as "0.4 mm", to say which outlets it gets to.
     youngs_modulus
-        Of a solid wire, such as "3 MPa": what it takes to bend it.
+        Those of a solid wire, such as "3 MPa": what it takes to bend it.
     max_force
         Force on the wall that is allowed, such as "1 mN".
     compare
