@@ -184,13 +184,13 @@ def energy(session: Session) -> float:
     plant, system = session.plant, session.plant.system
     rod, field, wall, lumen = plant.model
     state, work = plant.state, system.new_work()
-    smooth = (rod, field, wall._replace(friction=wall.friction._replace(on=False)), lumen)
+    smooth = (rod, field, wall._replace(friction=()), lumen)
     still = Motion(0.0, np.zeros_like(state.q))
     stored, _ = assemble(smooth, state, plant.mouth, still, work.gradient, work.no_band)
     held = int(state.held[0])
     moving = 0.5 * float(rod.mass[held + 1 :] @ (state.velocity[held + 1 :, :3] ** 2).sum(axis=1))
     moving += 0.5 * float(rod.inertia[held:] @ state.velocity[held:-1, 3] ** 2)
-    kept, rubs = state.contact, wall.friction
+    kept, rubs = state.contact, wall.friction[0]
     stick = rubs.static * kept[:, FACTOR] * kept[:, LOAD] / rubs.slip
     slips = 0.5 * float(stick @ (kept[:, SLIP : SLIP + 3] ** 2).sum(axis=1))
     return (stored + moving + slips) * system.scales.force * system.scales.length

@@ -30,16 +30,16 @@ def rubbing(seed: int, slide: float, *, drag: float = 0.0) -> Case:
     where = replace(system(), friction=friction)
     rod = random_rod(rng, where.rod, ())
     wall, state = where.new_wall(), random_state(rng, where, HELD, 0.1)
-    wall = wall._replace(friction=wall.friction._replace(slip=0.01))
+    wall = wall._replace(friction=(wall.friction[0]._replace(slip=0.01),))
     state.held[0] = HELD
-    recall(wall.friction, state, HELD)
-    wall.friction.rate[0] = 2.0
-    wall.friction.factor[:] = 1.0
+    recall(wall.friction[0], state, HELD)
+    wall.friction[0].rate[0] = 2.0
+    wall.friction[0].factor[:] = 1.0
     normals = rng.normal(size=(len(state.q), 3))
     normals /= np.linalg.norm(normals, axis=1)[:, None]
     for i in range(HELD + 1, len(state.q)):
-        set_load(wall.friction, state, state, i, tuple(normals[i]), rng.uniform(0.5, 2.0))
-    wall.friction.slides[:] = rng.uniform(size=len(state.q)) < 0.5
+        set_load(wall.friction[0], state, state, i, tuple(normals[i]), rng.uniform(0.5, 2.0))
+    wall.friction[0].slides[:] = rng.uniform(size=len(state.q)) < 0.5
     state.q[:, :] += slide * rng.normal(size=state.q.shape)
     field = random_field(rng, len(rod.rest), uniform=True)
     model = (rod, field, wall, where.walls)
@@ -66,7 +66,7 @@ def test_what_it_takes_is_never_negative(slide: float) -> None:
     _, _, hessian = derivatives(case)
     assert np.linalg.eigvalsh(hessian).min() > -1e-9 * np.abs(hessian).max()
     before = case.state._replace(contact=case.state.contact.copy())
-    keep(case.model[0], case.model[2].friction, before, case.state)
+    keep(case.model[0], case.model[2].friction[0], before, case.state)
     if slide < 0.01:
         assert before.spent[0] == 0.0
     else:

@@ -300,17 +300,17 @@ class System:
             friction=self._new_friction(),
         )
 
-    def _new_friction(self) -> FrictionArrays:
-        """Friction of the wall for the kernels, with nothing known of a step (P-32)."""
-        nodes, length = self.wire.nodes + 1, self.wire.length
-        friction = Friction() if self.friction is None else self.friction
+    def _new_friction(self) -> tuple[()] | tuple[FrictionArrays]:
+        """Friction of the wall for the kernels, if there is any, with nothing known of a step."""
+        if self.friction is None or not self.rubs:
+            return ()
+        nodes, length, friction = self.wire.nodes + 1, self.wire.length, self.friction
         static, kinetic = (
             _ghost(self.mesh.shares @ values)
             for values in friction.of_sections(len(self.wire.sections))
         )
         table = np.array(friction.along, dtype=np.float64).reshape(-1, 2) / (length, 1.0)
-        return FrictionArrays(
-            on=self.rubs,
+        arrays = FrictionArrays(
             static=static,
             kinetic=kinetic,
             radius=_ghost(self.mesh.radius) / length,
@@ -327,6 +327,7 @@ class System:
             factor=np.ones(nodes),
             slides=np.zeros(nodes, dtype=np.bool_),
         )
+        return (arrays,)
 
     @property
     def rubs(self) -> bool:

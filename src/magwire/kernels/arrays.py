@@ -107,7 +107,7 @@ class Between(NamedTuple):
 class Friction(NamedTuple):
     """Friction of the wall on each node, over a time step; see ``wall.traction``.
 
-    on: whether there is any. static, kinetic [N+1] coefficients; radius [N+1] of the wire's
+    static, kinetic [N+1] coefficients; radius [N+1] of the wire's
     surface; slip: elastic slip at the static cone; drag: viscous force per length and speed; table
     [k, 2] arc parameter on ``path`` and factor of the coefficients there.
 
@@ -118,7 +118,6 @@ class Friction(NamedTuple):
     slides [N+1].
     """
 
-    on: bool
     static: Array
     kinetic: Array
     radius: Array
@@ -150,7 +149,7 @@ class Wall(NamedTuple):
     jet: Array
     between: Between
     tube: Tube
-    friction: Friction
+    friction: tuple[()] | tuple[Friction]
 
 
 class State(NamedTuple):

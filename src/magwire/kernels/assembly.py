@@ -38,7 +38,7 @@ from magwire.kernels.stretching import stretching, stretching_hessian
 from magwire.kernels.twisting import twisting_gradient, twisting_hessian
 from magwire.kernels.vectors import add, combine, dot, row, scale, sub
 from magwire.kernels.wall.contact import add_walls
-from magwire.kernels.wall.traction import add_friction
+from magwire.kernels.wall.traction import friction_energy
 
 FIRST = 7
 LEAD = 8
@@ -242,6 +242,5 @@ def assemble(model, state, mouth, motion, gradient, band):
     energy = contact + add_hinges(rod, state, mouth, gradient, band)
     energy += add_edges(rod, field, state, mouth, gradient, band)
     energy += add_bodies(rod, state, motion, held, gradient, band)
-    if wall.friction.on:
-        energy += add_friction(rod, wall.friction, state, held, gradient, band)
+    energy += friction_energy(wall.friction, rod, state, held, gradient, band)
     return energy, nearest

@@ -22,7 +22,7 @@ from magwire.kernels.newton import Limits, newton
 from magwire.kernels.observe import observe, off_centreline, read_frames
 from magwire.kernels.sources.steer import field_of
 from magwire.kernels.vectors import row
-from magwire.kernels.wall.traction import recall, tractions
+from magwire.kernels.wall.traction import read_friction
 
 
 class Parts(NamedTuple):
@@ -83,10 +83,7 @@ def survey(body, forces, clearance, directors, rubs):
     """
     p = body.parts
     mouth = mouth_of(p.model[0], p.guide, p.state)
-    friction = p.model[2].friction
-    if friction.on:
-        recall(friction, p.state, mouth.held)
-        tractions(p.model[0], friction, p.state, rubs)
+    read_friction(p.model[2].friction, p.model[0], p.state, mouth.held, rubs)
     place_held(p.model[0], p.guide, p.state, 0, mouth.held, p.state.guide[0], p.state.guide[1])
     found = observe(p.model, p.state, mouth, p.work, forces, clearance)
     tip = row(p.state.q, p.state.q.shape[0] - 1)

@@ -20,7 +20,7 @@ from magwire.kernels.wall.collision import allowed_part
 from magwire.kernels.wall.contact import add_walls
 from magwire.kernels.wall.push import press
 from magwire.kernels.wall.slide import slide
-from magwire.kernels.wall.traction import begin, keep, reload
+from magwire.kernels.wall.traction import begin, keep_contacts, reload
 
 COARSE = 6  # a step may be cut in half this many times before its parts follow the wall
 RETRIES = 10  # and this many times in all
@@ -129,10 +129,18 @@ def time_step(model, guide, state, work, limits, slides, start, end, dt, drive):
         limits.tolerance, limits.iterations, limits.shift, limits.step, limits.turn, slides
     )
     mouth = Mouth(held, fraction)
-    if not wall.friction.on:
+    return solve_step(wall.friction, model, state, mouth, motion, work, limits, dt)
+
+
+@kernel
+def solve_step(frictions, model, state, mouth, motion, work, limits, dt):
+    """Newton's method, with or without friction: one is compiled, see ``wall.traction``."""
+    if len(frictions) == 0:
         return newton(model, work.ahead, mouth, motion, work, limits)
-    begin(rod, lumen, wall, state, held, dt, work)
-    return rub(model, state, mouth, motion, work, limits)
+    else:
+        rod, _, wall, lumen = model
+        begin(rod, lumen, wall, state, mouth.held, dt, work)
+        return rub(model, state, mouth, motion, work, limits)
 
 
 @kernel
@@ -151,11 +159,10 @@ def rub(model, state, mouth, motion, work, limits):
 
 
 @part
-def accept(rod, friction, state, work, dt, end):
+def accept(rod, frictions, state, work, dt, end):
     """Take over the step in ``work.ahead``: configuration, velocities, and where the guide is."""
     held = state.held[0]
-    if friction.on:
-        keep(rod, friction, state, work.ahead)
+    keep_contacts(frictions, rod, state, work.ahead)
     for i in range(held, state.q.shape[0]):
         for c in range(4):
             state.velocity[i, c] = (work.ahead.q[i, c] - state.q[i, c]) / dt

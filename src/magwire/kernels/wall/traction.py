@@ -131,7 +131,7 @@ def _start_at(friction, state, i):
 @part
 def begin(rod, lumen, wall, state, held, dt, work):
     """Begin a step of length dt at a state, with the wall's forces there."""
-    friction = wall.friction
+    friction = wall.friction[0]
     friction.rate[0] = 1.0 / dt
     read_loads(rod, lumen, wall, state, held, work)
     for i in range(held + 1, state.q.shape[0]):
@@ -297,7 +297,7 @@ def reload(rod, lumen, wall, state, ahead, work):
     A node that has left its static cone slides for the rest of the step: with two coefficients, one
     that could stick again might go to and fro for ever. ``keep`` decides what it does from there.
     """
-    friction, held = wall.friction, state.held[0]
+    friction, held = wall.friction[0], state.held[0]
     if friction.drag > 0.0:  # a viscous traction does not depend on the normal force
         return True
     read_loads(rod, lumen, wall, ahead, held, work)
@@ -351,3 +351,32 @@ def tractions(rod, friction, state, forces):
             _, pull, _ = pull_at(rod, friction, state, i)
             for c in range(3):
                 forces[i, c] = -pull[c]
+
+
+# A wall holds its friction in a tuple, which is empty where there is none. The length of a tuple is
+# part of its type: kernels for smooth walls are compiled without friction, whose code would slow
+# down the others' steps by a fifth.
+
+
+@kernel
+def friction_energy(frictions, rod, state, held, gradient, band):
+    """What friction adds to a step's potential, if there is any; see ``add_friction``."""
+    if len(frictions) == 0:
+        return 0.0
+    else:
+        return add_friction(rod, frictions[0], state, held, gradient, band)
+
+
+@kernel
+def keep_contacts(frictions, rod, state, ahead):
+    """Carry the contacts over to the end of a step, if there is friction; see ``keep``."""
+    if len(frictions) > 0:
+        keep(rod, frictions[0], state, ahead)
+
+
+@kernel
+def read_friction(frictions, rod, state, held, forces):
+    """Recall the contacts of a state and fill ``forces`` with their friction, if there is any."""
+    if len(frictions) > 0:
+        recall(frictions[0], state, held)
+        tractions(rod, frictions[0], state, forces)
