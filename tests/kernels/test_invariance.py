@@ -39,7 +39,8 @@ def test_rigid_motion(seed: int, axis: tuple[float, ...], shift: tuple[float, ..
     rotation = Rotation.from_rotvec(3.0 * np.array(axis))
     energy, gradient, _ = derivatives(case)
     moved, turned_gradient, _ = derivatives(turned(case, rotation, np.array(shift)))
-    assert moved == pytest.approx(energy, rel=ROUND_OFF)
+    # next to a fold 1 + te.tf cancels: its relative error grows as its inverse, as the energy does
+    assert moved == pytest.approx(energy, rel=ROUND_OFF * max(1.0, 1e-3 * energy))
     forces = np.append(gradient, 0.0).reshape(-1, 4)
     expected = np.column_stack([rotation.apply(forces[:, :3]), forces[:, 3]])
     size = np.abs(gradient).max()

@@ -25,6 +25,8 @@ WIDE = 1.8
 """Width over height from which a lumen shares its column with the field's panel."""
 COLUMN, AROUND, BELOW = 82.0, 33.0, 46.0
 """Width of a wide lumen, height of what is around it, and of the panel below it [mm]."""
+PLACES = 5
+"""Decimals of where a panel is, in parts of its figure."""
 LOADS = 48.0
 """Height of the row of forces, and of one of friction where there is any [mm]."""
 FORMATS = ("png", "svg")
@@ -89,7 +91,21 @@ def draw(data: xr.Dataset, passive: xr.Dataset | None = None) -> Figure:
             panel.set_xlim(0.0, float(push.max(initial=0.0)) or 1.0)
         figure.draw_without_rendering()  # settles the layout, once for all formats
         figure.set_layout_engine("none")
+        _round_places(figure)
     return figure
+
+
+def _round_places(figure: Figure) -> None:
+    """Round where all panels are: the layout's last digits are not the same every time."""
+    waiting: list[Any] = list(figure.subfigs)
+    while waiting:
+        part = waiting.pop()
+        part.bbox_relative.set_points(np.round(part.bbox_relative.get_points(), PLACES))
+        waiting += part.subfigs
+    for panel in figure.axes:
+        box = panel.get_position(original=True).get_points()
+        (left, low), (right, high) = np.round(box, PLACES)
+        panel.set_position((left, low, right - left, high - low))
 
 
 def save(
