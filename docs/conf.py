@@ -25,6 +25,8 @@ extensions = [
 exclude_patterns = ["_build", "gallery/*.py", "gallery/*.ipynb", "gallery/*.md5"]
 templates_path = ["_templates"]
 nitpicky = False
+# properties of several classes share a name, such as Result.field and Simulation.field
+suppress_warnings = ["ref.python"]
 language = "en-GB"
 
 myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
