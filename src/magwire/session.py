@@ -78,7 +78,7 @@ class Session:
         if self._recording is None:
             return
         writer, plant = self._recording[0], self.plant
-        if plant.time > self._recorded:
+        if plant.time != self._recorded:  # a rewound wire is earlier than its last record
             writer.append(plant.record())
         if plant.status is not Status.CONVERGED:
             writer.close("not converged", plant.message)
