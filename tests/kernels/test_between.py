@@ -7,6 +7,7 @@ import pytest
 from scipy.optimize import brentq
 
 import magwire as mw
+from magwire.engine.system import System
 from magwire.engine.wall import THIN, divide
 from magwire.kernels.arrays import Motion, Mouth
 from magwire.lumen import Lumen
@@ -121,7 +122,7 @@ def test_the_certificate_finds_the_nearest_point() -> None:
 
 def test_a_run_that_is_outside_is_not_complete(monkeypatch: pytest.MonkeyPatch) -> None:
     """With the points between the nodes switched off, the certificate still tells."""
-    monkeypatch.setattr(mw.Lumen, "bulge", lambda self, inset: 0.0)
+    monkeypatch.setattr(System, "bulge", 0.0)
     result = coarse(21).run(mw.Feed(5e-3, 0.055), time_step=0.01, record_every=1e-3)
     assert result.status == "not converged"
     assert "a point between two nodes is" in result.message

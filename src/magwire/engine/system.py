@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from magwire.actuate import Actuator
 from magwire.contact import Barrier, Friction
 from magwire.engine.record import UNIFORM_INPUTS, Scales, patch_length
-from magwire.engine.wall import Firmness, divide, fit
+from magwire.engine.wall import Firmness, by_place, divide, fit
 from magwire.engine.words import system_words
 from magwire.errors import InputError, array, instance, nonnegative, one_of
 from magwire.field import FieldSource, UniformField, as_field
 from magwire.kernels.arrays import Friction as FrictionArrays
-from magwire.kernels.arrays import Guide, Rod, State, Tube, Wall, Work
+from magwire.kernels.arrays import JET, Bulges, Guide, Rod, State, Tube, Wall, Work
 from magwire.kernels.band import HALF_BANDWIDTH, WIDTH
 from magwire.kernels.centreline import LumenArrays
 from magwire.kernels.newton import Limits
@@ -26,6 +26,7 @@ from magwire.kernels.sources.steer import steer
 from magwire.kernels.sources.table import Sources, new_strength
 from magwire.kernels.wall.traction import CONTACT
 from magwire.lumen import Lumen
+from magwire.lumen.bulge import Bulge, largest
 from magwire.wire import Mesh, Wire, lay_out
 
 Array = NDArray[np.float64]
@@ -281,7 +282,16 @@ class System:
     @cached_property
     def bulge(self) -> float:
         """Largest curvature with which the wall bulges towards the wire's axis [1/m]."""
-        return self.lumen.bulge(self.keep_off) if self.lumen.branches else 0.0
+        return largest(self._bulges, self.lumen.branches)
+
+    @cached_property
+    def _bulges(self) -> list[Bulge]:
+        return self.lumen.bulges(self.keep_off)
+
+    @cached_property
+    def _bulges_by_place(self) -> Bulges:
+        """The same by place, for the kernels."""
+        return by_place(self._bulges, float(self.mesh.edge_length.max()), self.wire.length)
 
     def new_wall(self, tube: Tube | None = None) -> Wall:
         """The barrier, with nothing known yet of the gap near any point; with a virtual tube."""
@@ -289,12 +299,14 @@ class System:
         unit = stiffness / length**4  # of a barrier's stiffness
         edge = float(self.mesh.edge_length.max())
         between = divide(self.firmness, edge, self.bulge, length, self.wire.nodes)
-        none = Tube(0.0, 0.0, 0.0, self.walls, np.full((1, 4), -np.inf), np.zeros((1, 10)))
+        if between.parts > 1:
+            between = between._replace(bulges=self._bulges_by_place)
+        none = Tube(0.0, 0.0, 0.0, self.walls, np.full((1, 4), -np.inf), np.zeros((1, JET)))
         return Wall(
             stiffness=self.firmness.stiffness / unit,
             gap=self.firmness.activation_gap / length,
             known=np.full((self.wire.nodes + 1, 4), -np.inf),
-            jet=np.zeros((self.wire.nodes + 1, 10)),
+            jet=np.zeros((self.wire.nodes + 1, JET)),
             between=between._replace(stiffness=between.stiffness / unit),
             tube=none if tube is None else tube,
             friction=self._new_friction(),
@@ -353,7 +365,7 @@ class System:
             offset=(path.narrowest - radius) / length,
             path=path.arrays(length),
             known=np.full((1, 4), -np.inf),
-            jet=np.zeros((1, 10)),
+            jet=np.zeros((1, JET)),
         )
 
     def new_state(self) -> State:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import ceil, sqrt
 from typing import NamedTuple
 
 import numpy as np
 
 from magwire.contact import Barrier
-from magwire.kernels.arrays import Between
+from magwire.kernels.arrays import JET, Between, Bulges
 from magwire.lumen import Lumen
+from magwire.lumen.bulge import Bulge, widened
 from magwire.wire import Wire
 
 ROOM = 0.01
@@ -71,7 +73,8 @@ def divide(firm: Firmness, edge: float, bulge: float, scale: float, edges: int) 
     """Barrier between the nodes of edges of a length [m] at a wall of some bulge [1/m].
 
     In units of the length ``scale`` [m], with the stiffness still in Pa. Where the chord between
-    two nodes cannot come noticeably nearer to the wall than they are, there is none.
+    two nodes cannot come noticeably nearer to the wall than they are, there is none. No bulge is
+    known by place yet; see ``by_place``.
     """
     gap = THIN * firm.activation_gap
     parts = ceil(edge * sqrt(0.125 * MARGIN * bulge / gap))
@@ -83,6 +86,17 @@ def divide(firm: Firmness, edge: float, bulge: float, scale: float, edges: int) 
         gap=gap / scale,
         margin=MARGIN * min(0.125 * bulge * chord**2, 0.5 * chord) / scale,
         known=np.full((edges, parts, 4), -np.inf),
-        jet=np.zeros((edges, parts, 10)),
+        jet=np.zeros((edges, parts, JET)),
         clear=np.full((edges, 7), -np.inf),
+        bulges=Bulges(np.zeros(0), np.zeros(1, dtype=np.int64), np.zeros(0)),
+    )
+
+
+def by_place(bulges: Sequence[Bulge], edge: float, scale: float) -> Bulges:
+    """How sharply the wall bulges within an edge [m] of each place, in units of ``scale`` [m]."""
+    values = [widened(bulge, edge) for bulge in bulges]
+    return Bulges(
+        value=scale * np.concatenate(values),
+        first=np.cumsum([0, *map(len, values)]),
+        per_arc=np.array([scale / (bulge.arc[1] - bulge.arc[0]) for bulge in bulges]),
     )

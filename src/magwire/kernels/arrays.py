@@ -18,6 +18,8 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 Flag = NDArray[np.bool_]
 
+JET = 12  # numbers that are remembered of the gap at a point
+
 
 class Rod(NamedTuple):
     """A wire laid out on its mesh (P-4).
@@ -75,7 +77,7 @@ class Tube(NamedTuple):
     """The virtual tube around the centreline, which only the tip feels (P-19).
 
     path: a tube around the centreline; offset: its radius less the virtual tube's; known [1, 4],
-    jet [1, 10] as in ``Wall``. A stiffness of zero: there is none.
+    jet [1, JET] as in ``Wall``. A stiffness of zero: there is none.
     """
 
     stiffness: float
@@ -86,13 +88,25 @@ class Tube(NamedTuple):
     jet: Array
 
 
+class Bulges(NamedTuple):
+    """How sharply the wall bulges inward along each branch; see ``lumen.bulge``.
+
+    value [k] curvature at even places of the branches, one branch after the other; first [m + 1]
+    where a branch's begin; per_arc [m] how many there are for each length of it.
+    """
+
+    value: Array
+    first: Index
+    per_arc: Array
+
+
 class Between(NamedTuple):
     """Contact of the edges between their nodes; see ``wall.between``.
 
     parts: into how many an edge is divided, 1 if the nodes are enough; stiffness, gap of the
-    points' barrier; margin that they keep from the wall; known [N, parts, 4], jet [N, parts, 10] as
-    in ``Wall``; clear [N, 7]: where an edge's nodes were, and how far they may move from there
-    before one of its points may feel the wall.
+    points' barrier; margin that they keep from the wall; known [N, parts, 4], jet [N, parts, JET]
+    as in ``Wall``; clear [N, 7]: where an edge's nodes were, and how far they may move from there
+    before one of its points may feel the wall. bulges: how sharply the wall bulges, by place.
     """
 
     parts: int
@@ -102,6 +116,7 @@ class Between(NamedTuple):
     known: Array
     jet: Array
     clear: Array
+    bulges: Bulges
 
 
 class Friction(NamedTuple):
@@ -139,8 +154,8 @@ class Wall(NamedTuple):
     """Barrier stiffness and activation gap, and what is known of the gap near each node.
 
     known [N+1, 4]: a point, and a distance by which one may move from there without crossing the
-    wall; nearer than that less the activation gap, no query is needed (P-8). jet [N+1, 10]: gap,
-    gradient and Hessian there.
+    wall; nearer than that less the activation gap, no query is needed (P-8). jet [N+1, JET]: gap,
+    gradient and Hessian there, and arc parameter and branch of the ball that it is from.
     """
 
     stiffness: float

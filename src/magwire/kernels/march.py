@@ -11,11 +11,18 @@ from magwire.kernels.assembly import clear
 from magwire.kernels.frames import update_frames
 from magwire.kernels.guide import change_held, find_mouth, place_held
 from magwire.kernels.history import copy_configuration, copy_state
-from magwire.kernels.newton import CONVERGED, TOO_MANY_ITERATIONS, Limits, newton, take_step
+from magwire.kernels.newton import (
+    CONVERGED,
+    HALVINGS,
+    TOO_MANY_ITERATIONS,
+    Limits,
+    newton,
+    take_step,
+)
 from magwire.kernels.scatter import add_vector
 from magwire.kernels.sources.steer import steer
 from magwire.kernels.vectors import dot, row
-from magwire.kernels.wall.between import press_edge
+from magwire.kernels.wall.between import add_between, press_edge
 from magwire.kernels.wall.collision import allowed_part
 from magwire.kernels.wall.contact import add_walls
 from magwire.kernels.wall.push import press
@@ -69,7 +76,7 @@ def tip_force(model, state, held, work):
 
 @part
 def predict(rod, lumen, wall, state, velocity, held, dt, work, slides):
-    """Move the free unknowns on at their velocities, as far as no point crosses the wall."""
+    """Move the free unknowns on at their velocities, as far as no point comes into the wall."""
     for i in range(held - 1, state.q.shape[0]):
         for c in range(4):
             free = i > held or (i == held and c == 3)
@@ -83,9 +90,20 @@ def predict(rod, lumen, wall, state, velocity, held, dt, work, slides):
         if energy < inf and way == 1.0:
             copy_configuration(work.trial, state, held)
             return
+    origin = work.trial.q
     for i in range(held, state.q.shape[0]):
         for c in range(4):
-            state.q[i, c] += share * work.step[4 * (i - held + 1) + c]
+            origin[i, c] = state.q[i, c]
+    for _ in range(HALVINGS):
+        for i in range(held, state.q.shape[0]):
+            for c in range(4):
+                state.q[i, c] = origin[i, c] + share * work.step[4 * (i - held + 1) + c]
+        if wall.between.parts < 2:
+            return
+        _, energy = add_between(rod, lumen, wall, state, held, work.gradient, work.no_band)
+        if energy < inf:
+            return
+        share *= 0.5
 
 
 @part

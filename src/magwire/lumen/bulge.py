@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from magwire.kernels.centreline import LumenArrays
@@ -22,32 +25,74 @@ XX, XY, XZ, YY, YZ, ZZ = range(6)
 SYMMETRIC = [XX, XY, XZ, XY, YY, YZ, XZ, YZ, ZZ]
 
 
-def largest_bulge(arrays: LumenArrays, branches: Sequence[Branch], inset: float) -> float:
-    """Largest convex curvature of the gap at points that lie ``inset`` [m] off the wall [1/m].
+class Bulge(NamedTuple):
+    """How sharply a branch's wall bulges inward.
+
+    Attributes
+    ----------
+    arc, curvature
+        Arc parameters, evenly spaced [m], and the largest convex curvature of the gap there [1/m],
+        shapes (n,).
+    """
+
+    arc: Array
+    curvature: Array
+
+
+def bulges(arrays: LumenArrays, branches: Sequence[Branch], inset: float) -> list[Bulge]:
+    """Largest convex curvature of the gap at points that lie ``inset`` [m] off the wall, by place.
 
     Along a chord the gap falls below the straight line between its values at the ends by at most an
     eighth of this times the chord's length squared. Found on rings of points along the branches; a
-    rounded carina, which they may miss, bends by less than four over the width of the rounding, and
-    the flare of an outlet by a third over its radius, where a wire leaves along the wall.
+    rounded carina, which they may miss, bends by less than four over the width of the rounding
+    where the wall of one branch meets another's, and the flare of an outlet by a third over its
+    radius, where a wire leaves along the wall.
     """
-    worst = 0.0
-    for branch in branches:
-        if branch.blend > 0.0:
-            worst = max(worst, 4.0 / branch.blend)
-        if branch.open_end:
-            worst = max(worst, FLARE / float(branch.radius[-1]))
-        points = _rings(branch, inset)
+    rounding = _rounding(branches)
+    found = []
+    for own, branch in enumerate(branches):
+        arc, points = _rings(branch, inset)
         gap, hessian = np.empty(len(points)), np.empty((len(points), 6))
-        hessian_many(arrays, points, gap, hessian)
+        nearest = np.empty(len(points), dtype=np.int32)
+        hessian_many(arrays, points, gap, nearest, hessian)
         there = gap < inset + NEAR * float(branch.radius.max())
-        if np.any(there):
-            matrices = hessian[there][:, SYMMETRIC].reshape(-1, 3, 3)
-            worst = max(worst, float(np.linalg.eigvalsh(matrices)[:, -1].max()))
-    return worst
+        matrices = hessian[there][:, SYMMETRIC].reshape(-1, 3, 3)
+        sharpest = np.zeros(len(points))
+        sharpest[there] = np.linalg.eigvalsh(matrices)[:, -1]
+        curvature = np.maximum(sharpest.reshape(-1, AROUND).max(axis=1), 0.0)
+        if branch.open_end:
+            end = arc >= branch.length - float(branch.radius[-1])
+            curvature[end] = np.maximum(curvature[end], FLARE / float(branch.radius[-1]))
+        meets = np.any((nearest != own).reshape(-1, AROUND), axis=1)
+        if len(branches) > 1:
+            curvature[meets] = np.maximum(curvature[meets], rounding)
+        found.append(Bulge(arc, curvature))
+    return found
 
 
-def _rings(branch: Branch, inset: float) -> Array:
-    """Points around the centreline of a branch, ``inset`` off its wall, shape (n, 3) [m]."""
+def largest(found: Sequence[Bulge], branches: Sequence[Branch]) -> float:
+    """The largest curvature anywhere, with every carina and flare [1/m]."""
+    rings = [float(bulge.curvature.max()) for bulge in found]
+    flares = [FLARE / float(branch.radius[-1]) for branch in branches if branch.open_end]
+    return max([*rings, *flares, _rounding(branches)], default=0.0)
+
+
+def widened(bulge: Bulge, reach: float) -> Array:
+    """The largest curvature within a reach [m] of each place, and beyond to the next but one."""
+    spacing = bulge.arc[1] - bulge.arc[0]
+    far = math.ceil(reach / spacing) + 2
+    padded = np.pad(bulge.curvature, far, mode="edge")
+    values: Array = sliding_window_view(padded, 2 * far + 1).max(axis=1)
+    return values
+
+
+def _rounding(branches: Sequence[Branch]) -> float:
+    """Curvature of the narrowest rounding of a carina, if there is one [1/m]."""
+    return max((4.0 / branch.blend for branch in branches if branch.blend > 0.0), default=0.0)
+
+
+def _rings(branch: Branch, inset: float) -> tuple[Array, Array]:
+    """Arc parameters and, around each, points ``inset`` off the wall, shapes (n,), (n AROUND, 3)."""
     spacing = SPACING * float(branch.radius.min())
     count = min(RINGS, max(2, int(np.ceil(branch.length / spacing))))
     s = np.linspace(0.0, branch.length, count)
@@ -60,4 +105,4 @@ def _rings(branch: Branch, inset: float) -> Array:
     across = first[:, None] * np.cos(angle)[:, None] + second[:, None] * np.sin(angle)[:, None]
     radius = np.maximum(at[:, 3] - inset, 0.0)
     ring: Array = (at[:, None, :3] + radius[:, None, None] * across).reshape(-1, 3)
-    return ring
+    return s, ring

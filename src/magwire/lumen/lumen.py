@@ -16,7 +16,7 @@ from magwire.errors import InputError, array, instance, nonnegative, numbers, po
 from magwire.kernels.centreline import LumenArrays
 from magwire.lumen import shapes
 from magwire.lumen.branch import Bend, Branch
-from magwire.lumen.bulge import largest_bulge
+from magwire.lumen.bulge import Bulge, bulges, largest
 from magwire.lumen.forks import join_ways
 from magwire.lumen.grid import scaled
 from magwire.lumen.lazy import Lazy
@@ -457,7 +457,11 @@ class Lumen:
         A chord between two points comes nearer to the wall than they are by at most an eighth of
         this times its length squared.
         """
-        return largest_bulge(self._search.arrays, self.branches, inset)
+        return largest(self.bulges(inset), self.branches)
+
+    def bulges(self, inset: float) -> list[Bulge]:
+        """The same along each branch: the largest where the ball is that a point is deepest in."""
+        return bulges(self._search.arrays, self.branches, inset)
 
     def arrays(self, length_scale: float = 1.0) -> LumenArrays:
         """The lumen as the kernels take it, in units of ``length_scale`` [m]."""

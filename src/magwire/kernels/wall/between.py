@@ -14,8 +14,10 @@ from math import inf
 from magwire.kernels._jit import kernel, part
 from magwire.kernels.blocks import full, sym_scale
 from magwire.kernels.scatter import add_block, add_diagonal, add_vector
-from magwire.kernels.vectors import combine, norm, row, sub
-from magwire.kernels.wall.push import push
+from magwire.kernels.vectors import combine, dot, norm, row, sub
+from magwire.kernels.wall.push import push, query
+
+CAREFUL = 2.0  # bulges are sampled: what a chord may lose is taken this many times as much
 
 
 @kernel
@@ -45,37 +47,105 @@ def remember(between, q, j, room):
 
 
 @kernel
+def bulge_at(bulges, jet):
+    """How sharply the wall bulges near the ball that a remembered gap is from; -1 if not known.
+
+    It is not known past the ends of the branches, where the wall flares out.
+    """
+    if jet[11] < 0.0 or bulges.value.shape[0] == 0:
+        return -1.0
+    branch = int(jet[11])
+    first = bulges.first[branch]
+    place = jet[10] * bulges.per_arc[branch]
+    if not 0.0 <= place <= bulges.first[branch + 1] - first - 1:
+        return -1.0
+    return bulges.value[first + int(place + 0.5)]
+
+
+@kernel
+def dip(low, high, sagitta):
+    """Least value between the ends of a chord of what falls below the straight line by a parabola.
+
+    low, high: values at the ends; sagitta: by how much it falls in the middle.
+    """
+    rise = abs(high - low)
+    least = min(low, high)
+    if rise >= 4.0 * sagitta:
+        return least
+    return 0.5 * (low + high) - sagitta - rise * rise / (16.0 * sagitta)
+
+
+@part
+def sag(lumen, wall, q, j):
+    """By how much the gap may fall below the straight line between the nodes of edge j, at most.
+
+    -1 where that is not known. Asks for the gap at both nodes, so that it is known there.
+    """
+    bulge = 0.0
+    for i in range(j, j + 2):
+        x, known = row(q, i), wall.known[i]
+        if not (x[0] == known[0] and x[1] == known[1] and x[2] == known[2]):
+            query(lumen, x, known, wall.jet[i])
+        here = bulge_at(wall.between.bulges, wall.jet[i])
+        if here < 0.0:
+            return -1.0
+        bulge = max(bulge, here)
+    edge = sub(row(q, j + 1), row(q, j))
+    return 0.125 * CAREFUL * bulge * dot(edge, edge)
+
+
+@kernel
 def press_edge(rod, lumen, wall, state, j, gradient, band, r):
     """Barrier of the points of edge j; r is the band's row of its first node.
 
     Returns the smallest clearance, +inf where no point feels the wall, and the energy.
+
+    Points are asked for from both ends of the edge inward, until no point between the two that were
+    asked for last can feel the wall.
     """
     between = wall.between
     energy = 0.0
     nearest = inf
-    room = inf
     offset = keep_off(rod, between, j)
     stiffness = between.stiffness * rod.rest[j] / between.parts
-    for k in range(1, between.parts):
+    sagitta = sag(lumen, wall, state.q, j)
+    low, high = -inf, -inf  # what is left to the points' activation gap at the two ends
+    if sagitta >= 0.0:
+        low = wall.jet[j, 0] - offset - between.gap
+        high = wall.jet[j + 1, 0] - offset - between.gap
+    room = inf
+    first, last = 0, between.parts
+    while last - first > 1:
+        if sagitta >= 0.0:
+            part = (last - first) / between.parts
+            least = dip(low, high, sagitta * part * part)
+            if least >= 0.0:
+                room = min(room, least)
+                break
+        onward = low <= high
+        k = first + 1 if onward else last - 1
         s = k / between.parts
         x = combine(1.0 - s, row(state.q, j), s, row(state.q, j + 1))
         known, jet = between.known[j, k], between.jet[j, k]
         away = norm(sub(x, (known[0], known[1], known[2])))
         left = known[3] - offset - between.gap - away
-        if left >= 0.0:
-            room = min(room, left)
-            continue
-        d, value, pushed, block = push(lumen, x, stiffness, between.gap, offset, known, jet)
-        room = min(room, known[3] - offset - between.gap)
-        if d < inf:
-            nearest = min(nearest, d)
-            energy += value
-            add_vector(gradient, j, 1.0 - s, pushed)
-            add_vector(gradient, j + 1, s, pushed)
-            if len(band) > 0:
-                add_diagonal(band, r, sym_scale((1.0 - s) * (1.0 - s), block))
-                add_diagonal(band, r + 4, sym_scale(s * s, block))
-                add_block(band, r + 4, r, full(sym_scale(s * (1.0 - s), block)))
+        if left < 0.0:
+            d, value, pushed, block = push(lumen, x, stiffness, between.gap, offset, known, jet)
+            left = known[3] - offset - between.gap
+            if d < inf:
+                nearest = min(nearest, d)
+                energy += value
+                add_vector(gradient, j, 1.0 - s, pushed)
+                add_vector(gradient, j + 1, s, pushed)
+                if len(band) > 0:
+                    add_diagonal(band, r, sym_scale((1.0 - s) * (1.0 - s), block))
+                    add_diagonal(band, r + 4, sym_scale(s * s, block))
+                    add_block(band, r + 4, r, full(sym_scale(s * (1.0 - s), block)))
+        room = min(room, left)
+        if onward:
+            first, low = k, left
+        else:
+            last, high = k, left
     remember(between, state.q, j, room)
     return nearest, energy
 

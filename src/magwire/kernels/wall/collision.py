@@ -6,9 +6,8 @@ The gap is 1-Lipschitz, so a point may move by less than its gap. Repeating that
 
 from __future__ import annotations
 
-from magwire.kernels._jit import kernel, part
+from magwire.kernels._jit import kernel
 from magwire.kernels.vectors import combine, norm, row
-from magwire.kernels.wall.between import clear_edge, keep_off
 from magwire.kernels.wall.gap import gap_value
 from magwire.kernels.wall.push import clear_of_wall, query
 
@@ -49,33 +48,12 @@ def travel(lumen, x, dx, offset, known, jet, limit):
     return share
 
 
-@part
-def edge_part(rod, lumen, wall, q, step, j, r, limit, leeway):
-    """Largest part of a step, at most ``limit``, that the points of edge j may take.
-
-    r is the row of its first node; leeway as of ``allowed_part``.
-    """
-    between = wall.between
-    x, y = row(q, j), row(q, j + 1)
-    dx, dy = (step[r], step[r + 1], step[r + 2]), (step[r + 4], step[r + 5], step[r + 6])
-    farthest = limit * max(norm(dx), norm(dy)) / CAUTION
-    if clear_edge(between, q, j, farthest - between.gap):
-        return limit
-    offset = keep_off(rod, between, j) - leeway
-    for k in range(1, between.parts):
-        s = k / between.parts
-        here = combine(1.0 - s, x, s, y)
-        move = combine(1.0 - s, dx, s, dy)
-        known = between.known[j, k]
-        if not clear_of_wall(here, known, limit * norm(move) / CAUTION + offset):
-            limit = travel(lumen, here, move, offset, known, between.jet[j, k], limit)
-    return limit
-
-
 @kernel
 def allowed_part(rod, lumen, wall, q, step, held, leeway):
-    """Largest part of a step (rows of the band's layout) that keeps the wire inside.
+    """Largest part of a step (rows of the band's layout) that keeps the nodes inside.
 
+    Where it takes points between the nodes into the wall, their energy is infinite: a chord between
+    two nodes that stayed inside cannot have gone through the wall of a tree on the way.
     leeway: how far into the wall the way may lead, of a step that is known to end inside.
     """
     share = 1.0
@@ -87,9 +65,6 @@ def allowed_part(rod, lumen, wall, q, step, held, leeway):
         offset = rod.offset[i] - leeway
         if not clear_of_wall(x, wall.known[i], share * norm(dx) / CAUTION + offset):
             share = travel(lumen, x, dx, offset, wall.known[i], wall.jet[i], share)
-    if wall.between.parts > 1:
-        for j in range(held, nodes - 1):
-            share = edge_part(rod, lumen, wall, q, step, j, 4 * j - lead, share, leeway)
     tube = wall.tube
     if tube.stiffness > 0.0 and held < nodes - 1:
         i = nodes - 1

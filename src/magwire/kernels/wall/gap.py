@@ -277,11 +277,12 @@ def gap_many(lumen, points, out_g, out_s, out_branch):
 
 
 @kernel
-def hessian_many(lumen, points, out_g, out_h):
-    """Gap of each point and its Hessian, shapes [n, 3], [n] and [n, 6]; see ``gap_jet``."""
+def hessian_many(lumen, points, out_g, out_branch, out_h):
+    """Gap of each point, its branch and Hessian, shapes [n, 3], [n], [n], [n, 6]; see ``gap_jet``."""
     for i in range(len(points)):
-        g, _, _, _, _, h = gap_jet(lumen, points[i, 0], points[i, 1], points[i, 2])
+        g, _, branch, _, _, h = gap_jet(lumen, points[i, 0], points[i, 1], points[i, 2])
         out_g[i] = g
+        out_branch[i] = int32(branch)
         for c in range(6):
             out_h[i, c] = h[c]
 

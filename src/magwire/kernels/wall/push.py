@@ -13,11 +13,12 @@ from magwire.kernels.wall.gap import gap_jet
 
 @kernel
 def query(lumen, x, known, jet):
-    """Ask for the gap at a point and remember it."""
-    g, _, _, safe, n, h = gap_jet(lumen, x[0], x[1], x[2])
+    """Ask for the gap at a point and remember it, and which place of the centreline it is from."""
+    g, s, branch, safe, n, h = gap_jet(lumen, x[0], x[1], x[2])
     known[0], known[1], known[2], known[3] = x[0], x[1], x[2], safe
     jet[0], jet[1], jet[2], jet[3] = g, n[0], n[1], n[2]
     jet[4], jet[5], jet[6], jet[7], jet[8], jet[9] = h[0], h[1], h[2], h[3], h[4], h[5]
+    jet[10], jet[11] = s, branch
 
 
 @kernel
