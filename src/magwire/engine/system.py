@@ -17,8 +17,8 @@ from magwire.engine.wall import Firmness, by_place, divide, fit
 from magwire.engine.words import system_words
 from magwire.errors import InputError, array, instance, nonnegative, one_of
 from magwire.field import FieldSource, UniformField, as_field
-from magwire.kernels.arrays import Friction as FrictionArrays
 from magwire.kernels.arrays import JET, Bulges, Guide, Rod, State, Tube, Wall, Work
+from magwire.kernels.arrays import Friction as FrictionArrays
 from magwire.kernels.band import HALF_BANDWIDTH, WIDTH
 from magwire.kernels.centreline import LumenArrays
 from magwire.kernels.newton import Limits

@@ -92,7 +92,7 @@ def _rounding(branches: Sequence[Branch]) -> float:
 
 
 def _rings(branch: Branch, inset: float) -> tuple[Array, Array]:
-    """Arc parameters and, around each, points ``inset`` off the wall, shapes (n,), (n AROUND, 3)."""
+    """Arc parameters (n,) and points around each, ``inset`` off the wall (n AROUND, 3) [m]."""
     spacing = SPACING * float(branch.radius.min())
     count = min(RINGS, max(2, int(np.ceil(branch.length / spacing))))
     s = np.linspace(0.0, branch.length, count)

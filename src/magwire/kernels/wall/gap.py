@@ -278,7 +278,7 @@ def gap_many(lumen, points, out_g, out_s, out_branch):
 
 @kernel
 def hessian_many(lumen, points, out_g, out_branch, out_h):
-    """Gap of each point, its branch and Hessian, shapes [n, 3], [n], [n], [n, 6]; see ``gap_jet``."""
+    """Gap, branch and Hessian of points [n, 3], into [n], [n] and [n, 6]; see ``gap_jet``."""
     for i in range(len(points)):
         g, _, branch, _, _, h = gap_jet(lumen, points[i, 0], points[i, 1], points[i, 2])
         out_g[i] = g
