@@ -181,8 +181,13 @@ def deepest(simulation: mw.Simulation, result: mw.Result) -> float:
     blended = max((b.blend for b in where.branches), default=0.0)
     s = np.linspace(0.0, 1.0, POINTS)[None, :, None]
     worst = 0.0
-    for position in result.position[:: max(1, len(result.position) // 12)]:
+    edge = simulation.system.wire.edge_length
+    behind = edge * (len(result.position[0]) - 1 - np.arange(len(result.position[0]) - 1)[:, None])
+    behind = (behind - edge * s[0, :, 0]).ravel()  # length of wire from each point to the tip
+    every = max(1, len(result.position) // 12)
+    for position, fed in zip(result.position[::every], result.feed[::every], strict=True):
         points = (position[:-1, None] * (1.0 - s) + position[1:, None] * s).reshape(-1, 3)
+        points = points[behind <= fed]  # the guide may lead through another part of the lumen
         near = (
             where.gap(points) < thick + 0.3 * scale
         )  # only a filter: what is far is not looked at
