@@ -15,6 +15,8 @@ from magwire.kernels.wall.barrier import barrier
 from magwire.lumen import Lumen
 from magwire.lumen.branch import Bend
 from magwire.navigate.demands import Demands
+from magwire.navigate.navigator import Prescribed
+from magwire.navigate.schedule import Schedule, last_try
 from magwire.navigate.tip import TipNavigator
 from magwire.simulation import Simulation
 from magwire.wire import Wire
@@ -98,7 +100,10 @@ def plan(
     watch: Callable[[str], None] | None = None,
     outlets: Sequence[str] = (),
 ) -> list[Prospect]:
-    """Steer a wire to every outlet of a lumen, by equilibria (P-16, P-22).
+    """Steer a wire to every outlet of a lumen, by equilibria (P-16, P-22), and replay each course.
+
+    Programmes need a wall that gives way (``firm_wall``). What is reported is a replay of their
+    field with inertia, at the wall that fits the wire, as in every run.
 
     Parameters
     ----------
@@ -109,8 +114,8 @@ def plan(
     demands
         What the field must keep to, such as its largest value.
     contact
-        The wall's barrier; one that fits the narrowest place and the tightest bend, ``firm_wall``,
-        if left out.
+        The wall's barrier, of plans and replays; if left out, one that gives way for the plans, and
+        the one that fits for the replays.
     watch
         Called with the name of each outlet before it is tried.
     outlets
@@ -224,38 +229,58 @@ def _prospect(
             reason=f"The wire is {2e3 * wire.radius:.4g} mm wide, the lumen "
             f"{2e3 * nothing.narrowest:.4g} mm at {1e3 * nothing.narrowest_at:.4g} mm.",
         )
-    if contact is None:
-        contact = firm_wall(wire, nothing.bend.radius, min(GAP, PART * room))
     goal = way.length - float(radii[-1])
     long = fitted(wire, SLACK * way.length)
     every = min(FINEST * long.length, PACE * float(np.quantile(radii, 0.25)))
-    return _travel(nothing, Simulation(long, lumen, contact=contact), demands, (goal, every))
+    yielding = firm_wall(wire, nothing.bend.radius, min(GAP, PART * room))
+    course = _Course(
+        planned=Simulation(long, lumen, contact=contact or yielding),
+        replayed=Simulation(long, lumen, contact=contact or Barrier()),
+        feed=Feed(SPEED * long.length, SLACK * way.length),
+        every=every,
+        goal=goal,
+    )
+    return _travel(nothing, course, demands)
 
 
-def _travel(
-    nothing: Prospect, simulation: Simulation, demands: Demands, course: tuple[float, float]
-) -> Prospect:
-    """Steer the wire there, by equilibria: what it takes."""
-    goal, every = course
-    feed = Feed(SPEED * simulation.system.wire.length, SLACK * nothing.length)
-    result = simulation.run(
-        feed,
+@dataclass(frozen=True)
+class _Course:
+    """How a wire goes to an outlet: planned on one wall, replayed on another."""
+
+    planned: Simulation
+    replayed: Simulation
+    feed: Feed
+    every: float
+    goal: float
+
+
+def _travel(nothing: Prospect, course: _Course, demands: Demands) -> Prospect:
+    """Plan the way by equilibria, replay it with inertia: what it takes is what the replay says."""
+    every, goal = course.every, course.goal
+    plan = course.planned.run(
+        course.feed,
         TipNavigator(demands, update_every=every, plan_every=every, attempts=ATTEMPTS),
         motion="quasi-static",
         record_every=every,
         until=goal,
     )
-    arc = np.array([simulation.tip_arc(position) for position in result.position])
-    reached = bool(arc[-1] >= goal)
-    reason = result.message
-    if result.status == "complete" and not reached:
-        reason = (
-            f"All of the wire is inserted, and {1e3 * (goal - arc[-1]):.4g} mm are left. {reason}"
-        )
+    if len(plan.feed) == 0 or not plan.feed.max() > 0.0:
+        return replace(nothing, reason=plan.message)
+    tried = last_try(plan.feed)
+    schedule = Schedule(plan.feed[tried], plan.field[tried])
+    result = course.replayed.run(
+        Feed(course.feed.fastest, float(schedule.feed[-1])),
+        Prescribed(schedule),
+        time_step=every / course.feed.fastest,
+        record_every=every,
+        update_every=every,
+        until=goal,
+    )
+    arc = np.array([course.replayed.tip_arc(position) for position in result.position])
     flux = np.linalg.norm(result.field, axis=1)
-    return replace(
+    found = replace(
         nothing,
-        reached=reached,
+        reached=bool(arc[-1] >= goal),
         fed=float(result.feed.max()),
         came=float(arc.max()),
         peak_field=float(flux.max()),
@@ -266,9 +291,20 @@ def _travel(
         push_force=result.max_push_force,
         guide_torque=result.max_guide_torque,
         clearance=result.smallest_clearance,
-        reason=reason,
+        reason=plan.message,
         feed=result.feed,
         arc=arc,
         flux_density=flux,
         force=result.wall_force,
     )
+    if found.reached:
+        return found
+    planned = course.planned.tip_arc(plan.position[-1])
+    left = f"{1e3 * (goal - found.came):.4g} mm are left"
+    if plan.status != "complete":
+        reason = plan.message
+    elif planned < goal:
+        reason = f"All of the wire is inserted, and {left}. {plan.message}"
+    else:
+        reason = f"A course of the field was planned, but replayed with inertia {left}."
+    return replace(found, reason=" ".join(filter(None, (reason.strip(), result.message))))

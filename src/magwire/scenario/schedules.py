@@ -13,6 +13,7 @@ import tomli_w
 from magwire.errors import InputError, finite, positive
 from magwire.files import parse_toml, read_text, write_whole
 from magwire.navigate import Schedule
+from magwire.navigate.schedule import last_try
 
 if TYPE_CHECKING:
     from magwire.results import Result
@@ -86,9 +87,7 @@ def schedule_of(result: Result) -> Schedule:
     fed = result.feed
     if fed.size == 0:
         raise InputError("Input result of schedule_of must hold at least one record; received 0.")
-    there = fed[: int(np.argmax(fed)) + 1]
-    last = np.append(there[:-1] < np.minimum.accumulate(there[:0:-1])[::-1], True)
-    course = np.flatnonzero(last)
+    course = np.flatnonzero(last_try(fed))
     flux = result.field[course]
     if result.scenario:
         from magwire.scenario.reader import parse
