@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from magwire.actuate import Actuator, Input, Magnet
 from magwire.engine.command import Drive
-from magwire.engine.plant import Plant
+from magwire.engine.plant import Plant, Snapshot
 from magwire.engine.point import Point
 from magwire.engine.sensitivity import derivative
 from magwire.engine.status import Status
@@ -168,13 +168,13 @@ class AllocatingNavigator:
             raise NavigationError(f"{at} {binding(self._actuator, place, flux, start)}")
         known = getattr(self.navigator, "expected_tip", None)
         tip = None if known is None else known(feed)
-        if tip is not None and not self._follow(feed, found):
-            raise NavigationError(f"{at} {ASTRAY}")
-        if tip is not None and np.any(flux):
-            if not self._correct(tip, flux):
-                raise NavigationError(f"{at} {ASTRAY}")
+        before = self._plant.snapshot()
+        if tip is not None:
+            there = self._follow(feed, found)
+            if not there or (np.any(flux) and not self._correct(tip, flux)):
+                return self._aside(feed, before, f"{at} {ASTRAY}")
             found = self._plant.inputs
-            if self._saves and self._direct is not None:
+            if self._saves and self._direct is not None and np.any(flux):
                 found = self._saved(self._direct, found)
         if isinstance(self._actuator, Magnet):
             self._keep_out(self._actuator, found, feed)
@@ -191,6 +191,20 @@ class AllocatingNavigator:
             if self._prices @ less**2 < self._prices @ found**2:
                 return less
         plant.restore(start)
+        return found
+
+    def _aside(self, feed: float, before: Snapshot, why: str) -> Array:
+        """Inputs that are found from those at the feed before, where the plan's field fails."""
+        plant, direct = self._plant, self._direct
+        if not self._saves or direct is None:
+            raise NavigationError(why)
+        plant.restore(before)
+        plant.inputs = direct.weak * plant.inputs
+        settled = plant.settle(self._system.step_limits())[0] is Status.CONVERGED
+        free = np.full(len(plant.inputs), FREE)
+        if not settled or not direct.feed_to(feed) or not direct.improve(plant.inputs, free):
+            raise NavigationError(why)
+        found: Array = plant.inputs / direct.weak
         return found
 
     def _moved(self, direct: Direct, observation: Observation, until: float) -> InputSchedule:
