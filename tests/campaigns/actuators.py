@@ -1,6 +1,6 @@
 """The paper's cases in the fields of coils and a magnet: amperes, watts, fields, and replays.
 
-``python -m tests.campaigns.actuators [CASE ...]`` prints the rows of the table in docs/coils.md.
+``python -m campaigns.actuators [CASE ...]`` prints the rows of the table in docs/coils.md.
 Calibration files of real systems are not part of magwire; MAGWIRE_SHARED_DATA says where they are.
 """
 
@@ -11,8 +11,8 @@ import sys
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from tests.actuate.handed import FOLDER
 
+from actuate.handed import FOLDER
 from magwire import MagwireError, Result
 from magwire.navigate.inputs import InputSchedule
 from magwire.scenario import Scenario, inputs_of, load, parse
@@ -129,11 +129,18 @@ def octomag() -> str:
     """Eight coils, 20 A and an ohm each, around a small sinusoid."""
     return (
         f"actuator={{kind='mpem', calibration='{FOLDER}/octomag_calibration.yaml', "
-        "max_current='20 A', resistance='1 ohm'}"
+        "max_current='20 A', resistance='1 ohm', pose={translation=['8 mm', '0 mm', '0 mm']}}"
     )
 
 
-SMALL = ["output.record_every=0.1 mm"]
+SMALL = [
+    *("wire.length=20 mm", "wire.radius=0.12 mm", "wire.magnetized_tip=1 mm"),
+    *("lumen.amplitude=3 mm", "lumen.period=16 mm", "lumen.length=16 mm", "lumen.radius=0.6 mm"),
+    *("contact.activation_gap=0.02 mm", "feed.distance=13.6 mm", "feed.speed=0.2 mm/s"),
+    *("navigate.update_every=0.1 mm", "navigate.stability_margin=250 1/s^2"),
+    "output.record_every=0.1 mm",
+]
+"""The sinusoid at a fifth of its size, in the same fields."""
 
 if __name__ == "__main__":
     main(sys.argv[1:])

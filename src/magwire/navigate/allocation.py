@@ -124,6 +124,7 @@ class AllocatingNavigator:
         self._prices = prices_of(inputs)
         self._last = system.idle_inputs
         self._feed = float("inf")
+        self._needed: Array | None = None  # inputs without limits, where the limits bind
         self._plant = Plant(system.smooth)
         self._unit = system.path.narrowest
         planner = getattr(navigator, "navigator", navigator)  # of one that tries again
@@ -168,17 +169,34 @@ class AllocatingNavigator:
             raise NavigationError(f"{at} {binding(self._actuator, place, flux, start)}")
         known = getattr(self.navigator, "expected_tip", None)
         tip = None if known is None else known(feed)
-        before = self._plant.snapshot()
+        before, self._needed = self._plant.snapshot(), None
         if tip is not None:
             there = self._follow(feed, found)
             if not there or (np.any(flux) and not self._correct(tip, flux)):
-                return self._aside(feed, before, f"{at} {ASTRAY}")
+                return self._aside(feed, before, f"{at} {self._lacking() or ASTRAY}")
             found = self._plant.inputs
             if self._saves and self._direct is not None and np.any(flux):
                 found = self._saved(self._direct, found)
+        over = self._actuator.violations(found)
+        if over:
+            raise NavigationError(f"{at} a limit binds. {over[0]}")
         if isinstance(self._actuator, Magnet):
             self._keep_out(self._actuator, found, feed)
         return found
+
+    def _lacking(self) -> str:
+        """Which limit is in the way of the tip, as the end of a sentence; "" if none is known."""
+        if self._needed is None:
+            return ""
+        limits = np.maximum(np.abs(self._low), np.abs(self._high))
+        worst = int(np.argmax(np.abs(self._needed) / limits))
+        one, needed = self._actuator.inputs[worst], float(abs(self._needed[worst]))
+        if needed <= limits[worst]:
+            return ""
+        return (
+            f"input {one.name} is at its limit of {limits[worst]:g} {one.unit}; to bring the tip "
+            f"to where it is planned takes {needed:.3g} {one.unit}."
+        )
 
     def _saved(self, direct: Direct, found: Array) -> Array:
         """Inputs of less power that do what is asked for; those found if there are none."""
@@ -279,6 +297,11 @@ class AllocatingNavigator:
             (np.maximum(self._low - u, -near), np.minimum(self._high - u, near)),
         )
         if change is None:
+            free = np.full(len(u), FREE)
+            wanted = _programme(
+                self._prices, np.where(self._currents, u, 0.0), (rows, off), (-free, free)
+            )
+            self._needed = None if wanted is None else u + wanted
             return False
         plant.inputs = np.clip(u + change, self._low, self._high)
         return plant.settle(self._system.step_limits())[0] is Status.CONVERGED
