@@ -16,7 +16,7 @@ from magwire.lumen import Lumen
 from magwire.lumen.branch import Bend
 from magwire.navigate.demands import Demands
 from magwire.navigate.navigator import Prescribed
-from magwire.navigate.schedule import Schedule, last_try
+from magwire.navigate.schedule import Schedule, last_tries
 from magwire.navigate.tip import TipNavigator
 from magwire.simulation import Simulation
 from magwire.wire import Wire
@@ -266,7 +266,7 @@ def _travel(nothing: Prospect, course: _Course, demands: Demands) -> Prospect:
     )
     if len(plan.feed) == 0 or not plan.feed.max() > 0.0:
         return replace(nothing, reason=plan.message)
-    tried = last_try(plan.feed)
+    tried = last_tries(plan.feed)
     schedule = Schedule(plan.feed[tried], plan.field[tried])
     result = course.replayed.run(
         Feed(course.feed.fastest, float(schedule.feed[-1])),

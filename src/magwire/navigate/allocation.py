@@ -9,25 +9,31 @@ the field along it, which is what keeps it from buckling.
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Literal, get_args
 
 import daqp
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from magwire.actuate import Actuator, Magnet
+from magwire.actuate import Actuator, Input, Magnet
 from magwire.engine.command import Drive
-from magwire.engine.plant import Plant
+from magwire.engine.plant import Plant, Snapshot
 from magwire.engine.point import Point
 from magwire.engine.sensitivity import derivative
 from magwire.engine.status import Status
 from magwire.engine.system import System
-from magwire.errors import InputError, array
+from magwire.errors import InputError, array, one_of
+from magwire.navigate.direct import Direct
+from magwire.navigate.inputs import InputSchedule
 from magwire.navigate.model import across
 from magwire.navigate.navigator import NavigationError, Navigator, Observation, Steering
 from magwire.navigate.schedule import Schedule
 
 Array = NDArray[np.float64]
+Objective = Literal["power", "field"]
 
 ROUNDS = 200  # of linearisation, where the field is not linear in the inputs
 CLOSE = 1e-4  # of the wanted field, by which the made one may be off
@@ -35,6 +41,8 @@ POINTS = 201  # of the path, from which a magnet keeps away
 REACH = 0.02  # longest step of a magnet's coordinate [m], and of its direction, in one round
 LEAST = 1e-3  # field that others are measured against [T]: less of it turns no tip by much
 CORRECTIONS = 6  # of the inputs at a knot
+CLOSE = 1e-9  # two feeds are the same [m]
+SLACK = 1.0 + 1e-6  # room for rounding in rates
 ON_PLAN = 0.01  # tip off the plan, over the radius, and field along it, over the planned one
 ASIDE = 0.2  # the same, beyond which a knot counts as not reached
 ASTRAY = (
@@ -47,28 +55,6 @@ FREE = 1e30  # a bound that binds nothing, for the solver
 
 
 @dataclass(frozen=True)
-class InputSchedule:
-    """Inputs of an actuator that are linear in the feed between knots.
-
-    Parameters
-    ----------
-    feed
-        Knots, rising, shape (k,) [m]; before the first and after the last the inputs stay.
-    inputs
-        At the knots, shape (k, m).
-    """
-
-    feed: Array
-    inputs: Array
-
-    def at(self, feed: ArrayLike) -> Array:
-        """Inputs at feeds, shape (n, m)."""
-        where = np.atleast_1d(np.asarray(feed, dtype=np.float64))
-        columns = [np.interp(where, self.feed, column) for column in self.inputs.T]
-        return np.stack(columns, axis=1)
-
-
-@dataclass(frozen=True)
 class Allocated:
     """Steer by the inputs of the simulation's actuator: first the field, then the inputs.
 
@@ -76,9 +62,18 @@ class Allocated:
     ----------
     steering
         Who plans the field, such as a ``TipNavigator``.
+    objective
+        ``"field"``: the planned field is made where the magnet is, at the least power.
+        ``"power"``: from there the inputs go on to the least power with which tip and stability are
+        what the planner's demands ask for, if it has any: a torque or a pull may cost less than the
+        field. Of a magnet on an arm it is always the way that is least.
     """
 
     steering: Steering
+    objective: Objective = "power"
+
+    def __post_init__(self) -> None:
+        one_of("Allocated", "objective", self.objective, get_args(Objective))
 
     @property
     def update_every(self) -> float:
@@ -98,7 +93,7 @@ class Allocated:
                 "Input actuator of Simulation must be given to steer by its inputs; received None."
             )
         inner = self.steering.start(replace(system, actuator=None))
-        return AllocatingNavigator(inner, system)
+        return AllocatingNavigator(inner, system, objective=self.objective)
 
 
 class AllocatingNavigator:
@@ -110,16 +105,32 @@ class AllocatingNavigator:
         Who plans the field.
     system
         Wire, lumen and actuator.
+    objective
+        See ``Allocated``.
     """
 
-    def __init__(self, navigator: Navigator, system: System) -> None:
+    def __init__(
+        self, navigator: Navigator, system: System, *, objective: Objective = "power"
+    ) -> None:
         assert system.actuator is not None
+        self._currents = np.array([one.unit not in ("m", "") for one in system.actuator.inputs])
+        self._saves = objective == "power" and bool(self._currents.all())
         self.navigator, self._system, self._actuator = navigator, system, system.actuator
         begin, end = system.wire.magnet
         self._behind = system.wire.length - 0.5 * (begin + end)  # of the tip, the magnet's middle
+        inputs = system.actuator.inputs
+        self._low = np.array([one.low for one in inputs])
+        self._high = np.array([one.high for one in inputs])
+        self._prices = prices_of(inputs)
         self._last = system.idle_inputs
+        self._feed = float("inf")
+        self._needed: Array | None = None  # inputs without limits, where the limits bind
         self._plant = Plant(system.smooth)
         self._unit = system.path.narrowest
+        planner = getattr(navigator, "navigator", navigator)  # of one that tries again
+        demands = getattr(planner, "demands", None)
+        self._direct = None if demands is None else Direct(self._plant, demands, self._prices)
+        self._every = float(getattr(planner, "plan_every", np.inf))
 
     def plan(self, observation: Observation, until: float) -> InputSchedule:
         """The inputs from the observed feed to the feed ``until`` [m].
@@ -129,20 +140,25 @@ class AllocatingNavigator:
         NavigationError
             If no field does what is asked for, or no inputs within the limits make it.
         """
+        if self._direct is not None and isinstance(self._actuator, Magnet):
+            return self._moved(self._direct, observation, until)
         course = self.navigator.plan(observation, until)
         assert isinstance(course, Schedule)
         low, high = sorted((observation.feed, until))
-        inner = course.feed[(course.feed > low) & (course.feed < high)]
+        inner = course.feed[(course.feed > low + CLOSE) & (course.feed < high - CLOSE)]
         knots = np.unique(np.concatenate(([low], inner, [high])))
         if until < observation.feed:
             knots = knots[::-1]
-        rows, start = [], self._last
+        rows: list[Array] = []
+        start = self._last
         for feed, flux in zip(knots, course.at(knots), strict=True):
-            start = self._allocate(float(feed), flux, start)
+            if rows or abs(feed - self._feed) > CLOSE:  # where the last plan ends, this one begins
+                start = self._allocate(float(feed), flux, start)
             rows.append(start)
-        self._last = rows[-1]
+        self._in_time(knots, np.array(rows), observation.speed)
+        self._last, self._feed = rows[-1], float(knots[-1])
         order = np.argsort(knots)
-        return InputSchedule(knots[order], np.array(rows)[order])
+        return InputSchedule(knots[order], np.array(rows)[order], self._system.input_names)
 
     def _allocate(self, feed: float, flux: Array, start: Array) -> Array:
         curve = self._system.path.branches[0].curve
@@ -151,14 +167,84 @@ class AllocatingNavigator:
         at = f"At {1e3 * feed:.4g} mm of feed"
         if found is None:
             raise NavigationError(f"{at} {binding(self._actuator, place, flux, start)}")
-        tip = self.expected_tip(feed)
-        if tip is not None and np.any(flux):
-            if not self._follow(feed, found) or not self._correct(tip, flux):
-                raise NavigationError(f"{at} {ASTRAY}")
+        known = getattr(self.navigator, "expected_tip", None)
+        tip = None if known is None else known(feed)
+        before, self._needed = self._plant.snapshot(), None
+        if tip is not None:
+            there = self._follow(feed, found)
+            if not there or (np.any(flux) and not self._correct(tip, flux)):
+                return self._aside(feed, before, f"{at} {self._lacking() or ASTRAY}")
             found = self._plant.inputs
+            if self._saves and self._direct is not None and np.any(flux):
+                found = self._saved(self._direct, found)
+        over = self._actuator.violations(found)
+        if over:
+            raise NavigationError(f"{at} a limit binds. {over[0]}")
         if isinstance(self._actuator, Magnet):
             self._keep_out(self._actuator, found, feed)
         return found
+
+    def _lacking(self) -> str:
+        """Which limit is in the way of the tip, as the end of a sentence; "" if none is known."""
+        if self._needed is None:
+            return ""
+        limits = np.maximum(np.abs(self._low), np.abs(self._high))
+        worst = int(np.argmax(np.abs(self._needed) / limits))
+        one, needed = self._actuator.inputs[worst], float(abs(self._needed[worst]))
+        if needed <= limits[worst]:
+            return ""
+        return (
+            f"input {one.name} is at its limit of {limits[worst]:g} {one.unit}; to bring the tip "
+            f"to where it is planned takes {needed:.3g} {one.unit}."
+        )
+
+    def _saved(self, direct: Direct, found: Array) -> Array:
+        """Inputs of less power that do what is asked for; those found if there are none."""
+        plant, weak = self._plant, direct.weak
+        start = plant.snapshot()
+        plant.inputs = weak * found
+        settled = plant.settle(self._system.step_limits())[0] is Status.CONVERGED
+        if settled and direct.improve(plant.inputs, np.full(len(found), FREE)):
+            less = plant.inputs / weak
+            if self._prices @ less**2 < self._prices @ found**2:
+                return less
+        plant.restore(start)
+        return found
+
+    def _aside(self, feed: float, before: Snapshot, why: str) -> Array:
+        """Inputs that are found from those at the feed before, where the plan's field fails."""
+        plant, direct = self._plant, self._direct
+        if not self._saves or direct is None:
+            raise NavigationError(why)
+        plant.restore(before)
+        plant.inputs = direct.weak * plant.inputs
+        settled = plant.settle(self._system.step_limits())[0] is Status.CONVERGED
+        free = np.full(len(plant.inputs), FREE)
+        if not settled or not direct.feed_to(feed) or not direct.improve(plant.inputs, free):
+            raise NavigationError(why)
+        found: Array = plant.inputs / direct.weak
+        return found
+
+    def _moved(self, direct: Direct, observation: Observation, until: float) -> InputSchedule:
+        """The poses of a magnet up to a feed, each the nearest one to that before."""
+        count = max(1, int(np.ceil(abs(until - observation.feed) / self._every - 1e-6)))
+        knots = np.linspace(observation.feed, until, count + 1)
+        slews = np.array([one.slew for one in self._actuator.inputs])
+        rows = [self._last]
+        for before, feed in itertools.pairwise(knots):
+            time = abs(feed - before) / abs(observation.speed) if observation.speed else np.inf
+            reach = np.minimum(slews * time, FREE)
+            if not direct.feed_to(float(feed)) or not direct.improve(rows[-1], reach):
+                raise NavigationError(direct.why(float(feed)))
+            rows.append(self._unit_direction(self._plant.inputs))
+            self._plant.inputs = rows[-1]
+        self._last, self._feed = rows[-1], float(until)
+        order = np.argsort(knots)
+        return InputSchedule(knots[order], np.array(rows)[order], self._system.input_names)
+
+    def _unit_direction(self, pose: Array) -> Array:
+        """A magnet's pose with a direction of length one."""
+        return np.concatenate((pose[:3], pose[3:] / np.linalg.norm(pose[3:])))
 
     def _follow(self, feed: float, inputs: Array) -> bool:
         """Bring the model to a feed and inputs by equilibria; whether they were found."""
@@ -173,32 +259,69 @@ class AllocatingNavigator:
 
     def _correct(self, tip: Array, flux: Array) -> bool:
         """Bring the model's tip to where it is planned; whether inputs within the limits do."""
-        plant, actuator, system = self._plant, self._actuator, self._system
-        limits = system.step_limits()
-        low = np.array([one.low for one in actuator.inputs])
-        high = np.array([one.high for one in actuator.inputs])
-        prices = np.array([one.resistance or 1.0 for one in actuator.inputs])
-        unit = max(float(np.linalg.norm(flux)), LEAST)
         for _ in range(CORRECTIONS):
-            seen, u = plant.observe(), plant.inputs
-            point = Point(system, plant.samples(), plant.snapshot().state, plant.mouth)
-            moves = derivative(point, "tip", "inputs")
-            aside = across(seen.tip_direction)
-            where = (seen.tip - self._behind * seen.tip_direction)[None]
-            made, by_input = actuator.at(where, u)[0][0], actuator.response(where, u)[0][0].T
-            off = np.append(aside @ (tip - seen.tip) / self._unit, 0.0)
-            off[2] = seen.tip_direction @ (flux - made) / unit
-            rows = np.vstack([aside @ moves / self._unit, seen.tip_direction @ by_input])
-            rows[2] /= unit
-            if np.abs(off).max() < ON_PLAN or not plant.released:
+            rows, off = self._to_first_order(tip, flux)
+            if np.abs(off).max() < ON_PLAN or not self._plant.released:
                 return True
-            change = _programme(prices, u, (rows, off), (low - u, high - u))
-            if change is None:
-                return False
-            plant.inputs = np.clip(u + change, low, high)
-            if plant.settle(limits)[0] is not Status.CONVERGED:
+            if not self._change(rows, off):
                 return False
         return float(np.abs(off).max()) < ASIDE
+
+    def _to_first_order(self, tip: Array, flux: Array) -> tuple[Array, Array]:
+        """How the tip and the field along it change with the inputs, and how far they are off.
+
+        Shapes (3, m) and (3,); the tip across itself over the radius, the field over
+        the planned one.
+        """
+        plant, actuator = self._plant, self._actuator
+        seen, u = plant.observe(), plant.inputs
+        point = Point(self._system, plant.samples(), plant.snapshot().state, plant.mouth)
+        moves = derivative(point, "tip", "inputs")
+        unit = max(float(np.linalg.norm(flux)), LEAST)
+        aside = across(seen.tip_direction)
+        where = (seen.tip - self._behind * seen.tip_direction)[None]
+        made, by_input = actuator.at(where, u)[0][0], actuator.response(where, u)[0][0].T
+        along = seen.tip_direction
+        rows = np.vstack([aside @ moves / self._unit, along @ by_input / unit])
+        off = np.append(aside @ (tip - seen.tip) / self._unit, along @ (flux - made) / unit)
+        return rows, off
+
+    def _change(self, rows: Array, off: Array) -> bool:
+        """Change the inputs at the least cost so that nothing is off; whether the wire follows."""
+        plant, u = self._plant, self._plant.inputs
+        near = np.where(self._currents, FREE, REACH)
+        change = _programme(
+            self._prices,
+            np.where(self._currents, u, 0.0),
+            (rows, off),
+            (np.maximum(self._low - u, -near), np.minimum(self._high - u, near)),
+        )
+        if change is None:
+            free = np.full(len(u), FREE)
+            wanted = _programme(
+                self._prices, np.where(self._currents, u, 0.0), (rows, off), (-free, free)
+            )
+            self._needed = None if wanted is None else u + wanted
+            return False
+        plant.inputs = np.clip(u + change, self._low, self._high)
+        return plant.settle(self._system.step_limits())[0] is Status.CONVERGED
+
+    def _in_time(self, feeds: Array, rows: Array, speed: float | None) -> None:
+        """Refuse inputs that would have to change faster than they can."""
+        if not speed or len(feeds) < 2:
+            return
+        for k, (a, b) in enumerate(itertools.pairwise(rows)):
+            time = abs(float(feeds[k + 1] - feeds[k]) / speed)
+            for one, now, then in zip(self._actuator.inputs, a, b, strict=True):
+                rate = float(then - now) / time
+                low, high = one.rates(float(then))
+                if not low * SLACK <= rate <= high * SLACK:
+                    raise NavigationError(
+                        f"At {1e3 * feeds[k + 1]:.4g} mm of feed input {one.name} would have to "
+                        f"change by {rate:.3g} {one.unit}/s, and can by "
+                        f"{high if rate > 0.0 else low:.3g} {one.unit}/s: feed more slowly, or "
+                        "observe more often."
+                    )
 
     def _keep_out(self, magnet: Magnet, pose: Array, feed: float) -> None:
         """Refuse a magnet that is too near to the vessel."""
@@ -232,9 +355,20 @@ class AllocatingNavigator:
 
     def expected_tip(self, feed: float) -> Array | None:
         """Where the tip should be at a feed [m], shape (3,) [m]; None if that is not known."""
+        if abs(feed - self._feed) < CLOSE and self._direct is not None:
+            here: Array = self._plant.observe().tip
+            return here
         known = getattr(self.navigator, "expected_tip", None)
         tip: Array | None = None if known is None else known(feed)
         return tip
+
+
+def prices_of(inputs: Sequence[Input]) -> Array:
+    """What the square of each input costs: its resistance, or one where none is known."""
+    known = [one.resistance for one in inputs]
+    if not all(resistance > 0.0 for resistance in known):
+        return np.ones(len(known))
+    return np.array(known)
 
 
 def allocate(
@@ -267,7 +401,7 @@ def allocate(
     low = np.array([one.low for one in actuator.inputs])
     high = np.array([one.high for one in actuator.inputs])
     currents = np.array([one.unit == "A" for one in actuator.inputs])
-    prices = np.array([one.resistance or 1.0 for one in actuator.inputs])
+    prices = prices_of(actuator.inputs)
     unit = max(float(np.linalg.norm(wanted)), LEAST)
     if isinstance(actuator, Magnet) and np.any(wanted):
         far = np.linalg.norm(wanted - actuator.at(where, u)[0][0]) > 0.5 * unit

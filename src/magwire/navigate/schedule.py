@@ -80,20 +80,15 @@ class Schedule:
         return Schedule(self.feed, finite("Schedule.scaled", "factor", factor) * self.flux_density)
 
 
-def last_try(feed: ArrayLike) -> NDArray[np.bool_]:
-    """Which of the feeds of a run lead to the farthest one, of what was tried again the last try.
+def last_tries(feed: ArrayLike) -> NDArray[np.int64]:
+    """Which records of a run led to the farthest feed, of what was tried again the last try.
 
     Parameters
     ----------
     feed
         In the order of the motion, at least one, shape (n,) [m].
-
-    Returns
-    -------
-    array
-        Shape (n,); where it is true the feeds rise.
     """
     fed = np.asarray(feed, dtype=np.float64)
     there = fed[: int(np.argmax(fed)) + 1]
     last = there[:-1] < np.minimum.accumulate(there[:0:-1])[::-1]
-    return np.concatenate([last, [True], np.zeros(len(fed) - len(there), dtype=np.bool_)])
+    return np.flatnonzero(np.append(last, True))

@@ -5,15 +5,16 @@ from __future__ import annotations
 import csv
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import tomli_w
+from numpy.typing import NDArray
 
 from magwire.errors import InputError, finite, positive
 from magwire.files import parse_toml, read_text, write_whole
 from magwire.navigate import Schedule
-from magwire.navigate.schedule import last_try
+from magwire.navigate.schedule import last_tries
 
 if TYPE_CHECKING:
     from magwire.results import Result
@@ -87,7 +88,7 @@ def schedule_of(result: Result) -> Schedule:
     fed = result.feed
     if fed.size == 0:
         raise InputError("Input result of schedule_of must hold at least one record; received 0.")
-    course = np.flatnonzero(last_try(fed))
+    course = last_tries(fed)
     flux = result.field[course]
     if result.scenario:
         from magwire.scenario.reader import parse
@@ -105,6 +106,8 @@ def replayed(
     resample: float | None = None,
 ) -> Scenario:
     """The scenario of a result in dynamic motion, steered by the field that the result recorded.
+
+    With an actuator, by the inputs that it recorded.
 
     Parameters
     ----------
@@ -131,13 +134,29 @@ def replayed(
             "Input result of replayed must have a scenario; received one of a run that was set up "
             "in Python."
         )
-    schedule = schedule_of(result).scaled(finite("replayed", "scale", scale))
+    finite("replayed", "scale", scale)
     if resample is not None:
-        schedule = schedule.resampled(positive("replayed", "resample", resample, "m"))
+        positive("replayed", "resample", resample, "m")
     raw = parse_toml(result.scenario)
-    raw["navigate"] = {"method": "schedule", "table": rows_of(schedule)}
+    raw["navigate"] = _recorded(result, scale, resample, inputs="actuator" in raw)
     raw.setdefault("solver", {})["motion"] = "dynamic"  # where a schedule proves itself (P-23)
     return parse(tomli_w.dumps(raw), overrides, source="of the result")
+
+
+def _recorded(
+    result: Result, scale: float, resample: float | None, *, inputs: bool
+) -> dict[str, Any]:
+    """The navigator's table of what a result recorded: its field, or its actuator's inputs."""
+    if inputs:
+        from magwire.scenario.columns import NamedColumns
+        from magwire.scenario.courses import columns_of, inputs_of
+
+        course = inputs_of(result).scaled(scale)
+        course = course if resample is None else course.resampled(resample)
+        return {"method": "inputs", "table": NamedColumns().write(columns_of(course))}
+    schedule = schedule_of(result).scaled(scale)
+    schedule = schedule if resample is None else schedule.resampled(resample)
+    return {"method": "schedule", "table": rows_of(schedule)}
 
 
 def rows_of(schedule: Schedule) -> list[list[str]]:
