@@ -11,6 +11,7 @@ from cyclopts import App, CycloptsError
 import magwire
 from magwire.cli.commands.animate import animate
 from magwire.cli.commands.bench import bench
+from magwire.cli.commands.check import check
 from magwire.cli.commands.devices import devices
 from magwire.cli.commands.doctor import doctor
 from magwire.cli.commands.export import export
@@ -48,6 +49,7 @@ app = App(
 for command in (
     animate,
     bench,
+    check,
     devices,
     doctor,
     export,
