@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     from magwire.results import Result as Result
     from magwire.scenario import Scenario as Scenario
     from magwire.scenario import load as load_scenario
+    from magwire.scenario import load_actuator as load_actuator
     from magwire.scenario import names as scenario_names
     from magwire.session import Session as Session
     from magwire.simulation import Simulation as Simulation
@@ -108,6 +109,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "axial": ("magwire.wire", "axial"),
     "device_names": ("magwire.devices", "names"),
     "load_device": ("magwire.devices", "load"),
+    "load_actuator": ("magwire.scenario", "load_actuator"),
     "load_scenario": ("magwire.scenario", "load"),
     "plan": ("magwire.planning", "plan"),
     "run_many": ("magwire.many", "run_many"),
@@ -160,6 +162,7 @@ __all__ = [
     "across",
     "axial",
     "device_names",
+    "load_actuator",
     "load_device",
     "load_scenario",
     "plan",

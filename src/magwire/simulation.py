@@ -389,6 +389,7 @@ class Simulation:
             scenario=scenario,
             motion=motion,
             inputs=self.system.input_names,
+            resistances=self.system.resistances,
         )
 
     def _way(self) -> Array:

@@ -205,6 +205,18 @@ DIMENSIONS: dict[str, Dimension] = {
         "inductance", "20 mH", {"H": 1.0, "mH": 1e-3, "uH": 1e-6}, ("H", "mH", "uH")
     ),
     "power": Dimension("power", "500 W", {"W": 1.0, "mW": 1e-3, "kW": 1e3}, ("W", "mW")),
+    "flux_rate": Dimension(
+        "rate of flux density", "1 T/s", {"T/s": 1.0, "mT/s": 1e-3, "G/s": 1e-4}, ("T/s", "mT/s")
+    ),
+    "flux_gradient_rate": Dimension(
+        "rate of flux gradient", "1 T/m/s", {"T/m/s": 1.0, "mT/m/s": 1e-3}, ("T/m/s",)
+    ),
+    "angular_speed": Dimension(
+        "angular speed",
+        "90 deg/s",
+        {"rad/s": 1.0, "deg/s": math.pi / 180.0, "turn/s": 2.0 * math.pi},
+        ("deg/s",),
+    ),
     "magnetic_moment": Dimension(
         "magnetic moment",
         "2 A m^2",

@@ -323,15 +323,15 @@ FAULTS = (
     Fault(
         "unknown navigator",
         ("navigate.method=magic",),
-        "Input navigate.method must be one of 'none', 'stable', 'newton', 'paper', 'schedule'; "
-        "received 'magic'.",
+        "Input navigate.method must be one of 'none', 'stable', 'newton', 'paper', 'schedule', "
+        "'inputs'; received 'magic'.",
     ),
     Fault(
         "key of another way to steer",
         (*STABLE, "navigate.file=x.csv"),
         "Input navigate.file is not a key of [navigate] with method 'stable'; expected one of "
-        "'method', 'update_every', 'plan_every', 'tip_clearance', 'stability_margin', "
-        "'field_tolerance', 'max_field', 'max_field_rate', 'attempts'.",
+        "'method', 'update_every', 'objective', 'plan_every', 'tip_clearance', "
+        "'stability_margin', 'field_tolerance', 'max_field', 'max_field_rate', 'attempts'.",
     ),
     Fault(
         "clearance for nobody who steers",

@@ -64,6 +64,8 @@ class RunInfo:
         How the wire moves: in time, or from one equilibrium to the next.
     inputs
         Names and units of the actuator's inputs.
+    resistances
+        Those of the coils that they are currents of [ohm]; 0 where there is none, or none known.
     """
 
     nodes: int
@@ -77,6 +79,7 @@ class RunInfo:
     scenario: str = ""
     motion: Motion = "dynamic"
     inputs: tuple[tuple[str, str], ...] = UNIFORM_INPUTS
+    resistances: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)

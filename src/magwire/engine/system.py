@@ -209,6 +209,13 @@ class System:
         return tuple((one.name, one.unit) for one in self.actuator.inputs)
 
     @property
+    def resistances(self) -> tuple[float, ...]:
+        """Of the coils whose currents are inputs [ohm]; 0 for others."""
+        if self.actuator is None:
+            return ()
+        return tuple(float(one.resistance) for one in self.actuator.inputs)
+
+    @property
     def inputs(self) -> int:
         """Number of the actuator's inputs."""
         return len(self.sources[0].curve) if self.sources else 3

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.actuate.recorded import of_hardware
 from magwire.export.frames import Frame, turned
 from magwire.files import successor
 
@@ -43,7 +44,7 @@ def write_tables(data: xr.Dataset, folder: Path, frame: Frame = "lps") -> list[P
 
 
 def run_columns(data: xr.Dataset, frame: Frame) -> dict[str, Array]:
-    """Columns of the records: time, feed, tip, the input, and forces; each of shape (t,)."""
+    """Columns of the records: time, feed, tip, field, forces, inputs; each of shape (t,)."""
     return {
         "time [s]": data["time"].values,
         "feed [m]": data["feed"].values,
@@ -51,6 +52,10 @@ def run_columns(data: xr.Dataset, frame: Frame) -> dict[str, Array]:
         **_vector("field", "T", turned(data["field"].values, frame)),
         **_vector("tip_force", "N", turned(data["contact_force"].values[:, -1], frame)),
         **{f"{name} [{unit}]": data[name].values for name, unit in NUMBERS.items() if name in data},
+        **{
+            f"{name} [{unit}]": data["inputs"].values[:, k]
+            for k, (name, unit) in enumerate(of_hardware(data.attrs))
+        },
     }
 
 

@@ -9,25 +9,30 @@ the field along it, which is what keeps it from buckling.
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Literal, get_args
 
 import daqp
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from magwire.actuate import Actuator, Magnet
+from magwire.actuate import Actuator, Input, Magnet
 from magwire.engine.command import Drive
 from magwire.engine.plant import Plant
 from magwire.engine.point import Point
 from magwire.engine.sensitivity import derivative
 from magwire.engine.status import Status
 from magwire.engine.system import System
-from magwire.errors import InputError, array
+from magwire.errors import InputError, array, one_of
+from magwire.navigate.inputs import InputSchedule
 from magwire.navigate.model import across
 from magwire.navigate.navigator import NavigationError, Navigator, Observation, Steering
 from magwire.navigate.schedule import Schedule
 
 Array = NDArray[np.float64]
+Objective = Literal["power", "field"]
 
 ROUNDS = 200  # of linearisation, where the field is not linear in the inputs
 CLOSE = 1e-4  # of the wanted field, by which the made one may be off
@@ -35,6 +40,10 @@ POINTS = 201  # of the path, from which a magnet keeps away
 REACH = 0.02  # longest step of a magnet's coordinate [m], and of its direction, in one round
 LEAST = 1e-3  # field that others are measured against [T]: less of it turns no tip by much
 CORRECTIONS = 6  # of the inputs at a knot
+SAVINGS = 6  # rounds in which the power at a knot is brought down
+LITTLE = 1e-3  # of the power, with which it is left at that
+CLOSE = 1e-9  # two feeds are the same [m]
+SLACK = 1.0 + 1e-6  # room for rounding in rates
 ON_PLAN = 0.01  # tip off the plan, over the radius, and field along it, over the planned one
 ASIDE = 0.2  # the same, beyond which a knot counts as not reached
 ASTRAY = (
@@ -47,28 +56,6 @@ FREE = 1e30  # a bound that binds nothing, for the solver
 
 
 @dataclass(frozen=True)
-class InputSchedule:
-    """Inputs of an actuator that are linear in the feed between knots.
-
-    Parameters
-    ----------
-    feed
-        Knots, rising, shape (k,) [m]; before the first and after the last the inputs stay.
-    inputs
-        At the knots, shape (k, m).
-    """
-
-    feed: Array
-    inputs: Array
-
-    def at(self, feed: ArrayLike) -> Array:
-        """Inputs at feeds, shape (n, m)."""
-        where = np.atleast_1d(np.asarray(feed, dtype=np.float64))
-        columns = [np.interp(where, self.feed, column) for column in self.inputs.T]
-        return np.stack(columns, axis=1)
-
-
-@dataclass(frozen=True)
 class Allocated:
     """Steer by the inputs of the simulation's actuator: first the field, then the inputs.
 
@@ -76,9 +63,17 @@ class Allocated:
     ----------
     steering
         Who plans the field, such as a ``TipNavigator``.
+    objective
+        ``"field"``: the planned field is made where the magnet is, at the least power.
+        ``"power"``: only the planned tip, and the field along it, are kept to; a torque or a pull
+        that takes less power than the planned field is then taken.
     """
 
     steering: Steering
+    objective: Objective = "power"
+
+    def __post_init__(self) -> None:
+        one_of("Allocated", "objective", self.objective, get_args(Objective))
 
     @property
     def update_every(self) -> float:
@@ -98,7 +93,7 @@ class Allocated:
                 "Input actuator of Simulation must be given to steer by its inputs; received None."
             )
         inner = self.steering.start(replace(system, actuator=None))
-        return AllocatingNavigator(inner, system)
+        return AllocatingNavigator(inner, system, objective=self.objective)
 
 
 class AllocatingNavigator:
@@ -110,14 +105,25 @@ class AllocatingNavigator:
         Who plans the field.
     system
         Wire, lumen and actuator.
+    objective
+        See ``Allocated``.
     """
 
-    def __init__(self, navigator: Navigator, system: System) -> None:
+    def __init__(
+        self, navigator: Navigator, system: System, *, objective: Objective = "power"
+    ) -> None:
         assert system.actuator is not None
+        self._currents = np.array([one.unit == "A" for one in system.actuator.inputs])
+        self._saves = objective == "power" and bool(self._currents.all())
         self.navigator, self._system, self._actuator = navigator, system, system.actuator
         begin, end = system.wire.magnet
         self._behind = system.wire.length - 0.5 * (begin + end)  # of the tip, the magnet's middle
+        inputs = system.actuator.inputs
+        self._low = np.array([one.low for one in inputs])
+        self._high = np.array([one.high for one in inputs])
+        self._prices = prices_of(inputs)
         self._last = system.idle_inputs
+        self._feed = float("inf")
         self._plant = Plant(system.smooth)
         self._unit = system.path.narrowest
 
@@ -132,17 +138,20 @@ class AllocatingNavigator:
         course = self.navigator.plan(observation, until)
         assert isinstance(course, Schedule)
         low, high = sorted((observation.feed, until))
-        inner = course.feed[(course.feed > low) & (course.feed < high)]
+        inner = course.feed[(course.feed > low + CLOSE) & (course.feed < high - CLOSE)]
         knots = np.unique(np.concatenate(([low], inner, [high])))
         if until < observation.feed:
             knots = knots[::-1]
-        rows, start = [], self._last
+        rows: list[Array] = []
+        start = self._last
         for feed, flux in zip(knots, course.at(knots), strict=True):
-            start = self._allocate(float(feed), flux, start)
+            if rows or abs(feed - self._feed) > CLOSE:  # where the last plan ends, this one begins
+                start = self._allocate(float(feed), flux, start)
             rows.append(start)
-        self._last = rows[-1]
+        self._in_time(knots, np.array(rows), observation.speed)
+        self._last, self._feed = rows[-1], float(knots[-1])
         order = np.argsort(knots)
-        return InputSchedule(knots[order], np.array(rows)[order])
+        return InputSchedule(knots[order], np.array(rows)[order], self._system.input_names)
 
     def _allocate(self, feed: float, flux: Array, start: Array) -> Array:
         curve = self._system.path.branches[0].curve
@@ -155,6 +164,8 @@ class AllocatingNavigator:
         if tip is not None and np.any(flux):
             if not self._follow(feed, found) or not self._correct(tip, flux):
                 raise NavigationError(f"{at} {ASTRAY}")
+            if self._saves:
+                self._save(tip, flux)
             found = self._plant.inputs
         if isinstance(self._actuator, Magnet):
             self._keep_out(self._actuator, found, feed)
@@ -173,32 +184,87 @@ class AllocatingNavigator:
 
     def _correct(self, tip: Array, flux: Array) -> bool:
         """Bring the model's tip to where it is planned; whether inputs within the limits do."""
-        plant, actuator, system = self._plant, self._actuator, self._system
-        limits = system.step_limits()
-        low = np.array([one.low for one in actuator.inputs])
-        high = np.array([one.high for one in actuator.inputs])
-        prices = np.array([one.resistance or 1.0 for one in actuator.inputs])
-        unit = max(float(np.linalg.norm(flux)), LEAST)
         for _ in range(CORRECTIONS):
-            seen, u = plant.observe(), plant.inputs
-            point = Point(system, plant.samples(), plant.snapshot().state, plant.mouth)
-            moves = derivative(point, "tip", "inputs")
-            aside = across(seen.tip_direction)
-            where = (seen.tip - self._behind * seen.tip_direction)[None]
-            made, by_input = actuator.at(where, u)[0][0], actuator.response(where, u)[0][0].T
-            off = np.append(aside @ (tip - seen.tip) / self._unit, 0.0)
-            off[2] = seen.tip_direction @ (flux - made) / unit
-            rows = np.vstack([aside @ moves / self._unit, seen.tip_direction @ by_input])
-            rows[2] /= unit
-            if np.abs(off).max() < ON_PLAN or not plant.released:
+            rows, off = self._to_first_order(tip, flux)
+            if np.abs(off).max() < ON_PLAN or not self._plant.released:
                 return True
-            change = _programme(prices, u, (rows, off), (low - u, high - u))
-            if change is None:
-                return False
-            plant.inputs = np.clip(u + change, low, high)
-            if plant.settle(limits)[0] is not Status.CONVERGED:
+            if not self._change(rows, off):
                 return False
         return float(np.abs(off).max()) < ASIDE
+
+    def _save(self, tip: Array, flux: Array) -> None:
+        """Go on to the least power with which the model's tip is where it is planned, stably."""
+        plant, actuator = self._plant, self._actuator
+        best, spent = plant.snapshot(), self._cost(plant.inputs)
+        for _ in range(SAVINGS):
+            rows, off = self._to_first_order(tip, flux)
+            if not plant.released or not self._change(rows, off):
+                break
+            _, off = self._to_first_order(tip, flux)
+            power = self._cost(plant.inputs)
+            if np.abs(off).max() > ON_PLAN or actuator.violations(plant.inputs):
+                continue
+            if not power < spent or not plant.stable:
+                break
+            gained, spent, best = spent - power, power, plant.snapshot()
+            if gained < LITTLE * spent:
+                break
+        plant.restore(best)
+
+    def _cost(self, inputs: Array) -> float:
+        """Power, or the sum of squares where no resistance is known."""
+        return float(self._prices @ inputs**2)
+
+    def _to_first_order(self, tip: Array, flux: Array) -> tuple[Array, Array]:
+        """How the tip and the field along it change with the inputs, and how far they are off.
+
+        Shapes (3, m) and (3,); the tip across itself over the radius, the field over
+        the planned one.
+        """
+        plant, actuator = self._plant, self._actuator
+        seen, u = plant.observe(), plant.inputs
+        point = Point(self._system, plant.samples(), plant.snapshot().state, plant.mouth)
+        moves = derivative(point, "tip", "inputs")
+        unit = max(float(np.linalg.norm(flux)), LEAST)
+        aside = across(seen.tip_direction)
+        where = (seen.tip - self._behind * seen.tip_direction)[None]
+        made, by_input = actuator.at(where, u)[0][0], actuator.response(where, u)[0][0].T
+        along = seen.tip_direction
+        rows = np.vstack([aside @ moves / self._unit, along @ by_input / unit])
+        off = np.append(aside @ (tip - seen.tip) / self._unit, along @ (flux - made) / unit)
+        return rows, off
+
+    def _change(self, rows: Array, off: Array) -> bool:
+        """Change the inputs at the least cost so that nothing is off; whether the wire follows."""
+        plant, u = self._plant, self._plant.inputs
+        near = np.where(self._currents, FREE, REACH)
+        change = _programme(
+            self._prices,
+            np.where(self._currents, u, 0.0),
+            (rows, off),
+            (np.maximum(self._low - u, -near), np.minimum(self._high - u, near)),
+        )
+        if change is None:
+            return False
+        plant.inputs = np.clip(u + change, self._low, self._high)
+        return plant.settle(self._system.step_limits())[0] is Status.CONVERGED
+
+    def _in_time(self, feeds: Array, rows: Array, speed: float | None) -> None:
+        """Refuse inputs that would have to change faster than they can."""
+        if not speed or len(feeds) < 2:
+            return
+        for k, (a, b) in enumerate(itertools.pairwise(rows)):
+            time = abs(float(feeds[k + 1] - feeds[k]) / speed)
+            for one, now, then in zip(self._actuator.inputs, a, b, strict=True):
+                rate = float(then - now) / time
+                low, high = one.rates(float(then))
+                if not low * SLACK <= rate <= high * SLACK:
+                    raise NavigationError(
+                        f"At {1e3 * feeds[k + 1]:.4g} mm of feed input {one.name} would have to "
+                        f"change by {rate:.3g} {one.unit}/s, and can by "
+                        f"{high if rate > 0.0 else low:.3g} {one.unit}/s: feed more slowly, or "
+                        "observe more often."
+                    )
 
     def _keep_out(self, magnet: Magnet, pose: Array, feed: float) -> None:
         """Refuse a magnet that is too near to the vessel."""
@@ -237,6 +303,14 @@ class AllocatingNavigator:
         return tip
 
 
+def prices_of(inputs: Sequence[Input]) -> Array:
+    """What the square of each input costs: its resistance, or one where none is known."""
+    known = [one.resistance for one in inputs]
+    if not all(resistance > 0.0 for resistance in known):
+        return np.ones(len(known))
+    return np.array(known)
+
+
 def allocate(
     actuator: Actuator, place: ArrayLike, flux: ArrayLike, start: ArrayLike | None = None
 ) -> Array | None:
@@ -267,7 +341,7 @@ def allocate(
     low = np.array([one.low for one in actuator.inputs])
     high = np.array([one.high for one in actuator.inputs])
     currents = np.array([one.unit == "A" for one in actuator.inputs])
-    prices = np.array([one.resistance or 1.0 for one in actuator.inputs])
+    prices = prices_of(actuator.inputs)
     unit = max(float(np.linalg.norm(wanted)), LEAST)
     if isinstance(actuator, Magnet) and np.any(wanted):
         far = np.linalg.norm(wanted - actuator.at(where, u)[0][0]) > 0.5 * unit

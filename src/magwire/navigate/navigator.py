@@ -10,7 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from magwire.engine.system import System
 from magwire.errors import MagwireError
-from magwire.navigate.schedule import Schedule
 
 Array = NDArray[np.float64]
 
@@ -86,10 +85,13 @@ class Steering(Protocol):
 
 @dataclass(frozen=True)
 class Prescribed:
-    """Steering by a schedule that is known beforehand, whatever the wire does (P-23)."""
+    """Steering by a schedule that is known beforehand, whatever the wire does (P-23).
 
-    schedule: Schedule
+    It is one of fields, or one of inputs for an actuator.
+    """
 
-    def plan(self, observation: Observation, until: float) -> Schedule:
+    schedule: Course
+
+    def plan(self, observation: Observation, until: float) -> Course:
         """The schedule itself."""
         return self.schedule

@@ -67,13 +67,14 @@ def steered_records(
         If the navigator finds no field.
     """
     plant = march.plant
+    if plant.system.actuator is not None:
+        _set_out(march, navigator, update)
     yield plant.record()
     seen, gone = observe(march), float("nan")
     while march.step < march.steps:
         if march.step % update == 0:
             feeds = march.feeds(march.step + update)
-            speed = float(feeds[-1] - seen.feed) / (len(feeds) * march.time_step)
-            seen = replace(seen, goal=march.goal, speed=speed)
+            seen = _told(march, seen, feeds)
             try:
                 schedule = navigator.plan(seen, float(feeds[-1]))
             except NavigationError as failure:
@@ -92,6 +93,26 @@ def steered_records(
             gone = float("nan")
         if not converged:
             return
+
+
+def _told(march: March, seen: Observation, feeds: Array) -> Observation:
+    """An observation with where the run ends and how fast the wire is fed."""
+    speed = float(feeds[-1] - seen.feed) / (len(feeds) * march.time_step)
+    return replace(seen, goal=march.goal, speed=speed)
+
+
+def _set_out(march: March, navigator: Navigator, update: int) -> None:
+    """Bring an actuator to its first inputs before the wire is fed, if there are any."""
+    feeds = march.feeds(march.step + update)
+    seen = _told(march, observe(march), feeds)
+    try:
+        course = navigator.plan(seen, float(feeds[-1]))
+    except NavigationError:  # it is told when the march is on
+        return
+    plant = march.plant
+    plant.inputs = course.at(seen.feed)[0]
+    if plant.released:
+        plant.settle(plant.system.step_limits())
 
 
 def observe(march: March) -> Observation:

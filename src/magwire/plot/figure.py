@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from magwire.files import successor
-from magwire.plot import curves, friction, loads, shapes, style
+from magwire.plot import curves, friction, inputs, loads, shapes, style
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,7 +28,7 @@ COLUMN, AROUND, BELOW = 82.0, 33.0, 46.0
 PLACES = 5
 """Decimals of where a panel is, in parts of its figure."""
 LOADS = 48.0
-"""Height of the row of forces, and of one of friction where there is any [mm]."""
+"""Height of the row of forces, and of those of inputs and friction where there are any [mm]."""
 FORMATS = ("png", "svg")
 
 
@@ -47,14 +47,19 @@ def draw(data: xr.Dataset, passive: xr.Dataset | None = None) -> Figure:
     Figure
         Two columns wide (180 mm): shapes of the wire at several feeds, normalised tip force, field
         components and clearance against normalised push; below, where along the lumen the wall is
-        pressed, and the forces on tip and wire and at the guide; where there is friction, a row
-        with what it takes, and with how far the wire slid or the twists of guide and tip.
+        pressed, and the forces on tip and wire and at the guide; where there is an actuator, a
+        row with its inputs and what they cost; where there is friction, a row with what it takes,
+        and with how far the wire slid or the twists of guide and tip.
     """
     with mpl.rc_context(style.RC):
         aspect = shapes.aspect(data)
         top = COLUMN / aspect + AROUND
         height = HEIGHT if aspect < WIDE else max(HEIGHT, top + BELOW)
-        rows = [height, LOADS, *([LOADS] if friction.rubs(data) else [])]
+        further = [
+            *([(inputs.draw_inputs, inputs.draw_cost)] if inputs.driven(data) else []),
+            *([(friction.draw_friction, friction.draw_slip)] if friction.rubs(data) else []),
+        ]
+        rows = [height, LOADS, *[LOADS] * len(further)]
         size = (style.WIDTH * style.MM, sum(rows) * style.MM)
         figure = Figure(figsize=size, layout="constrained")
         FigureCanvasAgg(figure)
@@ -77,13 +82,13 @@ def draw(data: xr.Dataset, passive: xr.Dataset | None = None) -> Figure:
         runs = [data] if passive is None else [data, passive]
         push = np.concatenate([run["normalized_push"].values for run in runs])
         panels = [force, field, clearance, *_draw_loads(below_it[0], runs)]
-        for row in below_it[1:]:
+        for row, drawn in zip(below_it[1:], further, strict=True):
             # a figure each: the layout of one would let the second scale meet its neighbour's label
             left, right = (half.subplots() for half in row.subfigures(1, 2))
-            friction.draw_friction(left, data)
-            friction.draw_slip(right, data)
+            for draw_panel, panel in zip(drawn, (left, right), strict=True):
+                draw_panel(panel, data)
             panels += [left, right]
-        for letter, panel in zip("bcdefghi", panels, strict=False):
+        for letter, panel in zip("bcdefghijk", panels, strict=False):
             panel.set_title(
                 rf"$\bf{{{letter}}}$   {panel.get_title(loc='left')}", loc="left", pad=3.0
             )

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from magwire.actuate.recorded import of_hardware, power_of
 from magwire.units import show
 
 if TYPE_CHECKING:
@@ -17,6 +18,8 @@ COLUMN = 20
 """Width of the names of the rows."""
 TURNED = 1e-3
 """Twist of the guide from which on a wire counts as turned [rad]."""
+MOST = 4
+"""Inputs of which the largest value is shown."""
 TORQUE = 1e-5
 """Torque at the guide, over EI/L, that is worth a word: round-off turns a wire in a plane, too."""
 
@@ -188,10 +191,34 @@ def _steering(result: Result) -> dict[str, str]:
         "peak field": show(result.peak_field, "flux_density")
         + ("" if np.isnan(scale) else f", normalised {result.peak_field / scale:.4g}"),
     }
+    rows |= _driving(result)
     if not np.isnan(result.largest_tip_departure):
         at = float(result.feed[np.nanargmax(result.tip_departure)])
         away = _short(result.largest_tip_departure)
         rows["model error"] = f"{away} at most at the tip, at a feed of {show(at, 'length')}"
+    return rows
+
+
+def _driving(result: Result) -> dict[str, str]:
+    """What the actuator was set to, and what that cost."""
+    names = of_hardware(result.dataset.attrs)
+    if not names or not result.feed.size:
+        return {}
+    rows = {}
+    for unit, what in (("A", "peak currents"), ("T", "peak inputs"), ("T/m", "peak gradients")):
+        columns = [k for k, (_, own) in enumerate(names) if own == unit]
+        if columns:
+            largest = np.abs(result.inputs).max(axis=0)
+            most = sorted(columns, key=lambda k: -largest[k])[:MOST]
+            rows[what] = ", ".join(f"{largest[k]:.3g} {unit} in {names[k][0]}" for k in most)
+    power = power_of(result.dataset.attrs, result.inputs)
+    if power is not None:
+        rows["power of coils"] = f"{power.max():.4g} W at most, {power.mean():.4g} W on average"
+    places = [k for k, (_, unit) in enumerate(names) if unit == "m"]
+    if places and len(result.time) > 1:
+        steps = np.linalg.norm(np.diff(result.inputs[:, places], axis=0), axis=1)
+        fastest = float((steps / np.diff(result.time)).max())
+        rows["way of magnet"] = f"{_short(float(steps.sum()))}, up to {1e3 * fastest:.3g} mm/s"
     return rows
 
 

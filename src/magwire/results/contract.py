@@ -311,6 +311,7 @@ def force_attributes(layout: Layout) -> dict[str, float]:
 
 def opening_attributes(info: RunInfo, layout: Layout, version: str) -> dict[str, Any]:
     """Attributes of the file that are known from the start."""
+    heated = any(resistance > 0.0 for resistance in info.resistances)
     return {
         "Conventions": "CF-1.11",
         "title": plain(info.title or _title_of(info.scenario)),
@@ -321,6 +322,7 @@ def opening_attributes(info: RunInfo, layout: Layout, version: str) -> dict[str,
         "motion": info.motion,
         "input_names": " ".join(name for name, _ in info.inputs),
         "input_units": " ".join(unit for _, unit in info.inputs),
+        **({"input_resistances": " ".join(map(repr, info.resistances))} if heated else {}),
         "length_scale": float(info.scales.length),
         "force_scale": float(info.scales.force),
         "field_scale": float(info.scales.flux_density),

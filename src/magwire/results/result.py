@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.actuate.recorded import names_of, power_of
 from magwire.errors import ResultError, offering, positive, refuse
 from magwire.files import successor
 from magwire.results import disk, forces, loading
@@ -293,6 +294,22 @@ class Result:
         """
         moves = np.linalg.norm(np.diff(self.position, axis=0), axis=2).max(axis=1, initial=0.0)
         return float(np.max(moves - np.abs(np.diff(self.feed)), initial=0.0))
+
+    @property
+    def inputs(self) -> Array:
+        """Inputs of the actuator, shape (t, m), in the units of ``input_names``."""
+        return self._array("inputs")
+
+    @property
+    def input_names(self) -> tuple[tuple[str, str], ...]:
+        """Name and SI unit of each input."""
+        return names_of(self.dataset.attrs)
+
+    @property
+    def power(self) -> Array:
+        """What the coils turn into heat, sum of R u^2, shape (t,) [W]; zero if R is not known."""
+        heat = power_of(self.dataset.attrs, self.inputs)
+        return np.zeros(len(self.time)) if heat is None else heat
 
     @property
     def peak_field(self) -> float:

@@ -4,12 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
+
+from magwire.errors import InputError
 from magwire.scenario.kind import FAMILIES, Faults, KindTable
 from magwire.scenario.kinds.navigate import ModelSteering
+from magwire.scenario.kinds.navigate.inputs import InputSteering
 from magwire.scenario.model import Scenario
 from magwire.scenario.quantity import SLACK
 from magwire.scenario.table import FaultyKeyError
 from magwire.units import show
+
+WAY = 201
+"""Points of the lumen at which the actuator has to be calibrated."""
 
 
 def wire_fits(scenario: Scenario) -> Faults:
@@ -81,6 +88,50 @@ def magnet_to_steer(scenario: Scenario) -> Faults:
         )
 
 
+def inputs_to_steer(scenario: Scenario) -> Faults:
+    """Who steers by inputs has an actuator that has them."""
+    navigate, table = scenario.navigate, scenario.actuator
+    if isinstance(navigate, ModelSteering) and navigate.objective and table is None:
+        yield (
+            "Input navigate.objective needs an [actuator] whose inputs are planned; "
+            f"received '{navigate.objective}' without one."
+        )
+    if not isinstance(navigate, InputSteering):
+        return
+    if table is None:
+        yield "Input navigate.method 'inputs' needs an [actuator] whose inputs it sets."
+    elif not any(table.faults()):
+        try:
+            navigate.schedule().of(table.build())
+        except InputError as error:
+            yield f"Input navigate.table: {error}"
+
+
+def actuator_reaches(scenario: Scenario) -> Faults:
+    """The wire stays in the box in which its actuator is calibrated."""
+    table = scenario.actuator
+    if table is None or table.may_leave or any(table.faults()):
+        return
+    if any(scenario.lumen.clashes()) or any(scenario.lumen.faults()):
+        return
+    actuator = table.build()
+    curve = scenario.lumen.build().path().branches[0].curve
+    arc = np.linspace(0.0, min(curve.length, scenario.feed.farthest), WAY)
+    tube = curve.at(arc)
+    sides = tube[:, None, :3] + tube[:, None, 3:] * np.concatenate([np.eye(3), -np.eye(3)])
+    away = actuator.outside(sides.reshape(-1, 3)).reshape(len(arc), 6).max(axis=1)
+    worst = int(np.argmax(away))
+    if away[worst] > 0.0:
+        remedy = "or ask for extrapolation by actuator.extrapolate = true"
+        yield (
+            f"The box in which the actuator is calibrated must hold the lumen; at "
+            f"{show(float(arc[worst]), 'length')} along it, the lumen is "
+            f"{show(float(f'{away[worst]:.3g}'), 'length')} outside: move the actuator by "
+            "actuator.pose, scale the lumen"
+            + (f", {remedy}." if "extrapolate" in type(table).model_fields else ".")
+        )
+
+
 def field_to_steer(scenario: Scenario) -> Faults:
     """The navigator's model samples the outside field once: it is linear in space."""
     if not isinstance(scenario.navigate, ModelSteering) or any(scenario.field.clashes()):
@@ -93,8 +144,14 @@ def field_to_steer(scenario: Scenario) -> Faults:
 
 
 def _own(name: str, check: Callable[[KindTable], Faults]) -> Callable[[Scenario], Faults]:
-    """The checks that a table makes itself."""
-    return lambda scenario: check(getattr(scenario, name))
+    """The checks that a table makes itself, if it is there."""
+
+    def own(scenario: Scenario) -> Faults:
+        table = getattr(scenario, name)
+        if table is not None:
+            yield from check(table)
+
+    return own
 
 
 CHECKS: tuple[Callable[[Scenario], Faults], ...] = (
@@ -107,6 +164,8 @@ CHECKS: tuple[Callable[[Scenario], Faults], ...] = (
     time_step,
     magnet_to_steer,
     field_to_steer,
+    inputs_to_steer,
+    actuator_reaches,
 )
 
 

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable, Sequence
-from typing import Any
+from typing import Any, get_args
 
 from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
 from magwire.errors import received
 from magwire.scenario.kind import FAMILIES
-from magwire.scenario.kinds.wire.sections import SectionTable
 from magwire.scenario.model import Scenario
 from magwire.scenario.quantity import FAULT
 
@@ -45,6 +44,8 @@ def sentence(error: ErrorDetails) -> str:
         return _choice(name, given)
     if kind == "literal_error":
         return f"Input {name} must be {context['expected']}; received {received(given)}."
+    if kind.startswith("bool"):
+        return f"Input {name} must be true or false; received {received(given)}."
     if kind == "string_type":
         return f"Input {name} must be text; received {received(given)}."
     if kind in ("tuple_type", "list_type"):
@@ -127,10 +128,23 @@ def _model_at(loc: Key) -> type[BaseModel] | None:
     if not loc:
         return Scenario
     if loc[0] in FAMILIES:
-        if "sections" in loc[2:]:
-            return SectionTable
-        return FAMILIES[str(loc[0])].kinds.get(str(loc[1])) if len(loc) > 1 else None
-    field = Scenario.model_fields.get(str(loc[0]))
-    annotation: Any = field.annotation if field else None
-    is_table = isinstance(annotation, type) and issubclass(annotation, BaseModel)
-    return annotation if is_table else None
+        kind = FAMILIES[str(loc[0])].kinds.get(str(loc[1])) if len(loc) > 1 else None
+        return _inside(kind, loc[2:])
+    return _inside(Scenario, loc)
+
+
+def _inside(model: type[BaseModel] | None, keys: Key) -> type[BaseModel] | None:
+    """The model of a table inside of another, itself or in a list."""
+    for key in keys:
+        if isinstance(key, str):
+            field = model.model_fields.get(key) if model else None
+            model = _table_in(field.annotation) if field else None
+    return model
+
+
+def _table_in(annotation: Any) -> type[BaseModel] | None:
+    """The table that a key holds, or holds a list of."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    found = (_table_in(part) for part in get_args(annotation))
+    return next((table for table in found if table is not None), None)

@@ -53,9 +53,10 @@ class Job:
             If a model refuses what the scenario describes.
         """
         tables = ("wire", "lumen", "field", "contact", "feed")
-        wall = scenario.contact
+        wall, table = scenario.contact, scenario.actuator
         faults = [text for name in tables for text in refusals(name, getattr(scenario, name).build)]
         faults += refusals("contact.friction", wall.friction.build)
+        faults += refusals("actuator", table.build) if table is not None else ()
         if not faults:
             sections = len(scenario.wire.build().sections)
             faults += refusals(
@@ -63,11 +64,13 @@ class Job:
             )
         if faults:
             raise ScenarioError(faults)
+        actuator = None if table is None else table.build()
         try:
             simulation = Simulation(
                 scenario.wire.build(),
                 scenario.lumen.build(),
                 field=scenario.field.build(),
+                actuator=actuator,
                 contact=wall.build(),
                 friction=wall.friction.build(),
                 damping=scenario.solver.damping,

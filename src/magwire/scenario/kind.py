@@ -1,4 +1,4 @@
-"""Kinds of wire, lumen, field, feed and navigator: each is known by one class in one file.
+"""Kinds of wire, lumen, field, feed, navigator, actuator: each is known by a class in one file.
 
 A kind is a table of the scenario file that says which keys it has, reads its files into numbers,
 checks itself and builds its model. ``kind`` makes it known; the file format, the messages and the
@@ -193,6 +193,7 @@ FAMILIES = {
         ("field", "kind"),
         ("feed", ""),
         ("navigate", "method"),
+        ("actuator", "kind"),
     )
 }
 """Tables of the scenario that come in several kinds."""

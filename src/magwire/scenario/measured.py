@@ -71,3 +71,29 @@ class Numbers(Sequence[tuple[float, ...]]):
 
     def __repr__(self) -> str:
         return f"Numbers({self.values.tolist()})"
+
+
+@dataclass(frozen=True, eq=False)
+class Columns:
+    """Columns by name, the first of which is the feed [m].
+
+    Attributes
+    ----------
+    names
+        Those of the others, each with its SI unit.
+    values
+        Shape (rows, 1 + columns), in SI.
+    """
+
+    names: tuple[tuple[str, str], ...]
+    values: NDArray[np.float64]
+
+    def __eq__(self, other: object) -> bool:
+        return (
+            isinstance(other, Columns)
+            and self.names == other.names
+            and np.array_equal(self.values, other.values)
+        )
+
+    def __hash__(self) -> int:
+        return hash((self.names, self.values.tobytes()))

@@ -9,6 +9,7 @@ from pydantic import Field
 
 from magwire.scenario.kind import FAMILIES, AnyKind, on_new_kind
 from magwire.scenario.kinds import (
+    ActuatorTable,
     FeedTable,
     FieldTable,
     LumenTable,
@@ -43,6 +44,7 @@ class Scenario(Table):
     wire: Annotated[WireTable, AnyKind("wire")]
     lumen: Annotated[LumenTable, AnyKind("lumen")]
     field: Annotated[FieldTable, AnyKind("field")] = Field(default={"kind": "uniform"})  # type: ignore[assignment]
+    actuator: Annotated[ActuatorTable, AnyKind("actuator")] | None = None
     contact: ContactTable = Field(default={})  # type: ignore[assignment]
     feed: Annotated[FeedTable, AnyKind("feed")]
     navigate: Annotated[NavigatorTable, AnyKind("navigate")] = Field(default={"method": "none"})  # type: ignore[assignment]
@@ -55,7 +57,7 @@ class Scenario(Table):
         tables = _lists(self.model_dump(exclude_none=True))
         for name, family in FAMILIES.items():
             selector = family.selector
-            if selector:  # what a table is comes first in it
+            if selector and name in tables:  # what a table is comes first in it
                 tables[name] = {selector: tables[name][selector], **tables[name]}
         return tomli_w.dumps(tables)
 

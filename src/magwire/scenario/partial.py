@@ -35,7 +35,9 @@ def partial_scenario(raw: dict[str, Any], faulty: set[Key]) -> Scenario:
         if (name,) in faulty:
             continue
         given = raw.get(name, field.default)
-        if name in FAMILIES:
+        if given is None:
+            tables[name] = None
+        elif name in FAMILIES:
             kind = FAMILIES[name].of(given)
             if kind is not None:
                 tables[name] = _table(kind, given, (name,), faulty)

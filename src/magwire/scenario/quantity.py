@@ -292,6 +292,35 @@ class Share(Notation):
         return {"type": "number", "minimum": self.low, "maximum": self.high}
 
 
+@dataclass(frozen=True)
+class Direction(Notation):
+    """A list of three plain numbers, of which only the direction counts."""
+
+    @property
+    def expected(self) -> str:
+        """What a well-formed value is, for messages."""
+        return "a list of three plain numbers such as [0, 0, 1]"
+
+    def read(self, value: object) -> tuple[float, float, float]:
+        """The numbers; raises the fault if they are none, or all zero."""
+        plain = isinstance(value, list) and not any(isinstance(x, bool) for x in value)
+        if not isinstance(value, list) or not plain or len(value) != 3:
+            raise fault(f"must be {self.expected}; received {received(value)}")
+        if not all(isinstance(x, (int, float)) and math.isfinite(x) for x in value):
+            raise fault(f"must be {self.expected}; received {received(value)}")
+        if not any(value):
+            raise fault("must have a length; received [0, 0, 0]")
+        return float(value[0]), float(value[1]), float(value[2])
+
+    def write(self, value: tuple[float, float, float]) -> list[float]:
+        """The numbers."""
+        return list(value)
+
+    def schema(self) -> JsonSchemaValue:
+        """JSON schema of the list."""
+        return {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
+
+
 def at_least_one(what: str) -> BeforeValidator:
     """Refuses an empty list or table of ``what``."""
 

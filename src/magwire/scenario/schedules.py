@@ -5,10 +5,11 @@ from __future__ import annotations
 import csv
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import tomli_w
+from numpy.typing import NDArray
 
 from magwire.errors import InputError, finite, positive
 from magwire.files import parse_toml, read_text, write_whole
@@ -86,9 +87,7 @@ def schedule_of(result: Result) -> Schedule:
     fed = result.feed
     if fed.size == 0:
         raise InputError("Input result of schedule_of must hold at least one record; received 0.")
-    there = fed[: int(np.argmax(fed)) + 1]
-    last = np.append(there[:-1] < np.minimum.accumulate(there[:0:-1])[::-1], True)
-    course = np.flatnonzero(last)
+    course = last_tries(fed)
     flux = result.field[course]
     if result.scenario:
         from magwire.scenario.reader import parse
@@ -96,6 +95,13 @@ def schedule_of(result: Result) -> Schedule:
         own = parse(result.scenario, source="of the result").field.build()
         flux = flux - own.at(result.position[course, -1])[0]
     return Schedule(fed[course], flux)
+
+
+def last_tries(feed: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Which records led to the farthest feed, of what was tried again the last try."""
+    there = feed[: int(np.argmax(feed)) + 1]
+    last = np.append(there[:-1] < np.minimum.accumulate(there[:0:-1])[::-1], True)
+    return np.flatnonzero(last)
 
 
 def replayed(
@@ -106,6 +112,8 @@ def replayed(
     resample: float | None = None,
 ) -> Scenario:
     """The scenario of a result in dynamic motion, steered by the field that the result recorded.
+
+    With an actuator, by the inputs that it recorded.
 
     Parameters
     ----------
@@ -132,13 +140,29 @@ def replayed(
             "Input result of replayed must have a scenario; received one of a run that was set up "
             "in Python."
         )
-    schedule = schedule_of(result).scaled(finite("replayed", "scale", scale))
+    finite("replayed", "scale", scale)
     if resample is not None:
-        schedule = schedule.resampled(positive("replayed", "resample", resample, "m"))
+        positive("replayed", "resample", resample, "m")
     raw = parse_toml(result.scenario)
-    raw["navigate"] = {"method": "schedule", "table": rows_of(schedule)}
+    raw["navigate"] = _recorded(result, scale, resample, inputs="actuator" in raw)
     raw.setdefault("solver", {})["motion"] = "dynamic"  # where a schedule proves itself (P-23)
     return parse(tomli_w.dumps(raw), overrides, source="of the result")
+
+
+def _recorded(
+    result: Result, scale: float, resample: float | None, *, inputs: bool
+) -> dict[str, Any]:
+    """The navigator's table of what a result recorded: its field, or its actuator's inputs."""
+    if inputs:
+        from magwire.scenario.columns import NamedColumns
+        from magwire.scenario.courses import columns_of, inputs_of
+
+        course = inputs_of(result).scaled(scale)
+        course = course if resample is None else course.resampled(resample)
+        return {"method": "inputs", "table": NamedColumns().write(columns_of(course))}
+    schedule = schedule_of(result).scaled(scale)
+    schedule = schedule if resample is None else schedule.resampled(resample)
+    return {"method": "schedule", "table": rows_of(schedule)}
 
 
 def rows_of(schedule: Schedule) -> list[list[str]]:

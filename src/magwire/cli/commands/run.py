@@ -115,10 +115,8 @@ def _report(
         for line in summary.gains(result, passive):
             say(line)
     if steered and result.time.size:
-        from magwire.scenario import schedule_of, write_schedule
-
         with writing_to(folder):
-            write_schedule(schedule_of(result), folder / SCHEDULE)
+            _write_course(described, result, folder / SCHEDULE)
     status = max(outcome(run) for run in results)
     if status == INTERRUPTED:  # whoever interrupts does not want to wait
         complain(f"No figure is drawn; 'magwire plot {folder}' draws what there is.")
@@ -129,6 +127,16 @@ def _report(
             pictures.save(result.dataset, folder, passive=passive.dataset if passive else None)
     say(f"{'written to':{summary.COLUMN}}{folder}")
     return status
+
+
+def _write_course(described: Scenario, result: Result, path: Path) -> None:
+    """Write what steered: the inputs of the actuator, or the field where there is none."""
+    from magwire.scenario import inputs_of, schedule_of, write_inputs, write_schedule
+
+    if described.actuator is None:
+        write_schedule(schedule_of(result), path)
+    else:
+        write_inputs(inputs_of(result), path)
 
 
 def outcome(result: Result | None) -> int:

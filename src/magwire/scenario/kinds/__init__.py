@@ -1,4 +1,4 @@
-"""Kinds of wire, lumen, field, feed and navigator: one file each, which nothing else names.
+"""Kinds of wire, lumen, field, feed, navigator, actuator: one file each, which nothing else names.
 
 What a kind of one's own needs is here: ``kind`` and the tables to start from. Importing the module
 that has it makes it known; the environment variable MAGWIRE_KINDS names modules, or files, that are
@@ -13,6 +13,7 @@ from pkgutil import iter_modules
 
 from magwire.errors import MagwireError
 from magwire.scenario.kind import FAMILIES, Faults, Inlined, kind, refusals
+from magwire.scenario.kinds.actuator import ActuatorTable
 from magwire.scenario.kinds.feed import FeedTable
 from magwire.scenario.kinds.field import FieldTable
 from magwire.scenario.kinds.lumen import LumenTable, RoundLumen
@@ -20,6 +21,7 @@ from magwire.scenario.kinds.navigate import ModelSteering, NavigatorTable
 from magwire.scenario.kinds.wire import WireTable
 
 __all__ = [
+    "ActuatorTable",
     "Faults",
     "FeedTable",
     "FieldTable",
@@ -37,7 +39,7 @@ OWN = "MAGWIRE_KINDS"
 FIRST = (
     *("straight", "half_circle", "sinusoid", "helix", "tree"),
     *("aortic_arch", "carotid_bifurcation", "coronary_tree", "tortuous", "points", "vessel"),
-    *("none", "stable", "newton", "paper", "uniform"),
+    *("none", "stable", "newton", "paper", "schedule", "uniform"),
 )
 """Modules whose kinds messages name first, in this order; the others follow by their names."""
 

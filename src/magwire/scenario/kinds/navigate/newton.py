@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from magwire.scenario.kind import kind
-from magwire.scenario.kinds.navigate import ModelSteering
+from magwire.scenario.kinds.navigate import ModelSteering, in_inputs
 from magwire.scenario.quantity import Length
 
 if TYPE_CHECKING:
@@ -24,4 +24,8 @@ class NewtonSteering(ModelSteering):
         """The navigator of one run, as yet without a memory."""
         from magwire.navigate.newton import NewtonNavigator
 
-        return NewtonNavigator(simulation.system, plan_every=self.plan_every)
+        return in_inputs(
+            simulation.system,
+            lambda system: NewtonNavigator(system, plan_every=self.plan_every),
+            self.objective,
+        )

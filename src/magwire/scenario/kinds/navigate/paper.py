@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from magwire.scenario.kind import kind
-from magwire.scenario.kinds.navigate import FieldLimit, ModelSteering
+from magwire.scenario.kinds.navigate import FieldLimit, ModelSteering, in_inputs
 from magwire.scenario.quantity import Share, Whole
 from magwire.scenario.table import preset
 
@@ -38,4 +38,8 @@ class PaperSteering(ModelSteering):
             tolerance=self.tolerance,
             iterations=self.iterations,
         )
-        return PaperNavigator(simulation.system, optimiser=optimiser)
+        return in_inputs(
+            simulation.system,
+            lambda system: PaperNavigator(system, optimiser=optimiser),
+            self.objective,
+        )

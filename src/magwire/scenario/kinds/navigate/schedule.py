@@ -12,7 +12,7 @@ from pydantic import Field
 
 from magwire.errors import MagwireError
 from magwire.scenario.kind import Faults, Inlined, kind
-from magwire.scenario.kinds.navigate import NavigatorTable
+from magwire.scenario.kinds.navigate import NavigatorTable, in_inputs
 from magwire.scenario.measured import Measured, Numbers
 from magwire.scenario.quantity import Quantity, Row, Rows
 from magwire.units import show
@@ -25,7 +25,7 @@ Knots = Annotated[
     Numbers,
     Rows(Row((Quantity("length", "nonnegative"), *[Quantity("flux_density")] * 3)), least=1),
 ]
-_FILE = re.compile(r"^(?:Schedule file|Result file|File|Folder) ")
+FILE = re.compile(r"^(?:Schedule file|Result file|File|Folder) ")
 
 
 @kind
@@ -64,7 +64,7 @@ class ScheduledSteering(NavigatorTable):
             try:
                 schedule = read_schedule(folder / table["file"])
             except MagwireError as error:
-                fault = _FILE.sub("Input navigate.file ", str(error), count=1)
+                fault = FILE.sub("Input navigate.file ", str(error), count=1)
             else:
                 return Inlined({**rest, "table": _measured(schedule)}, [])
         return Inlined(rest, [fault], unread=(("navigate", "table"),))
@@ -84,7 +84,8 @@ class ScheduledSteering(NavigatorTable):
         from magwire.navigate import Prescribed, Schedule
 
         rows = self.table.values
-        return Prescribed(Schedule(rows[:, 0], rows[:, 1:]))
+        schedule = Schedule(rows[:, 0], rows[:, 1:])
+        return in_inputs(simulation.system, lambda system: Prescribed(schedule))
 
 
 def _measured(schedule: Schedule) -> Measured:

@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from magwire.scenario.kind import kind
-from magwire.scenario.kinds.navigate import FieldLimit, ModelSteering
+from magwire.scenario.kinds.navigate import FieldLimit, ModelSteering, in_inputs
 from magwire.scenario.quantity import Length, Quantity, Share, Whole
 from magwire.scenario.table import preset
 
 if TYPE_CHECKING:
+    from magwire.engine.system import System
     from magwire.navigate import Navigator
     from magwire.simulation import Simulation
 
@@ -45,5 +46,9 @@ class StableSteering(ModelSteering):
             field_tolerance=self.field_tolerance,
             **{name: limit for name, limit in limits.items() if limit is not None},
         )
-        plain = StableNavigator(simulation.system, demands=demands, plan_every=self.plan_every)
-        return persistent(plain, self.attempts)
+
+        def planner(system: System) -> Navigator:
+            plain = StableNavigator(system, demands=demands, plan_every=self.plan_every)
+            return persistent(plain, self.attempts)
+
+        return in_inputs(simulation.system, planner, self.objective)

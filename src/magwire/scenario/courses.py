@@ -1,0 +1,127 @@
+"""Inputs of an actuator in files: read from CSV or from a result, written as CSV."""
+
+from __future__ import annotations
+
+import csv
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from magwire.errors import InputError
+from magwire.files import read_text, write_whole
+from magwire.navigate.inputs import InputSchedule
+from magwire.scenario.columns import DIMENSIONS, FEED
+from magwire.scenario.measured import Columns
+from magwire.scenario.schedules import last_tries
+
+if TYPE_CHECKING:
+    from magwire.results import Result
+
+_HEAD = re.compile(r"\s*([^\s\[]+)\s*\[([^\]]*)\]\s*")
+
+
+def read_inputs(path: str | Path) -> InputSchedule:
+    """Inputs of an actuator from a file.
+
+    Parameters
+    ----------
+    path
+        CSV file with a header such as ``feed [m],Ix [A],Iy [A]``, in SI units; or a result file or
+        the folder that holds one, see ``inputs_of``.
+
+    Raises
+    ------
+    InputError
+        If the file is no such schedule.
+    ResultError
+        If the result file is none.
+    """
+    path = Path(path)
+    if path.suffix == ".nc" or path.is_dir():
+        from magwire.results import Result
+
+        return inputs_of(Result.load(path))
+    try:
+        text = read_text(path)
+    except OSError as error:
+        reason = (error.strerror or "unknown reason").lower()
+        raise InputError(f"Schedule file '{path}' cannot be read: {reason}.") from None
+    except UnicodeDecodeError:
+        raise InputError(f"Schedule file '{path}' is not a text file.") from None
+    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+    head, *rows = list(csv.reader(lines, skipinitialspace=True)) or [[""]]
+    return _course(path, head, rows)
+
+
+def write_inputs(course: InputSchedule, path: str | Path) -> Path:
+    """Write inputs as a CSV file that ``read_inputs`` reads back to the same numbers.
+
+    Parameters
+    ----------
+    course
+        The inputs.
+    path
+        File to write; an existing one is overwritten.
+    """
+    path = Path(path)
+    heads = [f"{name} [{unit}]" for name, unit in ((FEED, "m"), *course.names)]
+    rows = np.column_stack([course.feed, course.inputs]).tolist()
+    lines = [",".join(heads), *(",".join(map(repr, row)) for row in rows)]
+    write_whole(path, "\n".join(lines) + "\n")
+    return path
+
+
+def inputs_of(result: Result) -> InputSchedule:
+    """The inputs that steered a run to its farthest feed, of what was tried again the last try.
+
+    Raises
+    ------
+    InputError
+        If the result has no records.
+    """
+    if result.feed.size == 0:
+        raise InputError("Input result of inputs_of must hold at least one record; received 0.")
+    course = last_tries(result.feed)
+    return InputSchedule(result.feed[course], result.inputs[course], result.input_names)
+
+
+def columns_of(course: InputSchedule) -> Columns:
+    """Inputs as a scenario's table has them."""
+    return Columns(course.names, np.column_stack([course.feed, course.inputs]))
+
+
+def _course(path: Path, head: list[str], rows: list[list[str]]) -> InputSchedule:
+    heads = [match.groups() if (match := _HEAD.fullmatch(word)) else None for word in head]
+    known = [one for one in heads if one is not None and one[1] in DIMENSIONS]
+    if len(known) != len(head) or len(head) < 2 or known[0] != (FEED, "m"):
+        raise InputError(
+            f"Schedule file '{path}' must start with a header such as 'feed [m],Ix [A],Iy [A]', in "
+            f"SI units; received '{','.join(head)}'."
+        )
+    names = [name for name, _ in known]
+    if len(set(names)) < len(names):
+        twice = next(name for name in names if names.count(name) > 1)
+        raise InputError(f"Schedule file '{path}' must have each column once; {twice} comes twice.")
+    if not rows:
+        raise InputError(f"Schedule file '{path}' must have at least one row; received none.")
+    table = np.empty((len(rows), len(head)))
+    for number, row in enumerate(rows, start=1):
+        try:
+            table[number - 1] = [float(word) for word in row]
+        except ValueError:
+            table[number - 1] = np.nan
+        if not np.isfinite(table[number - 1]).all():
+            raise InputError(
+                f"Schedule file '{path}' must have {len(head)} finite numbers in every row; "
+                f"received '{','.join(row)}' in row {number}."
+            )
+    rises = np.diff(table[:, 0]) > 0.0
+    if not rises.all():
+        number = int(np.argmin(rises))
+        raise InputError(
+            f"Schedule file '{path}' must have feeds that increase; received "
+            f"{table[number + 1, 0]:g} m after {table[number, 0]:g} m in row {number + 2}."
+        )
+    return InputSchedule(table[:, 0], table[:, 1:], tuple((a, b) for a, b in known[1:]))
