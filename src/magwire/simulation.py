@@ -219,6 +219,7 @@ class Simulation:
             watchers.append(Until(until, self.tip_arc))
         watchers += [watch] if callable(watch) else watch or ()
         info = self.info(title=title, scenario=scenario, motion=motion)
+        info = replace(info, hardware="" if hardware is None else str(hardware))
         with Writer(info, out) as writer, held_back_interrupt() as strike:
             try:
                 for record in records:

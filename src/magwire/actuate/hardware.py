@@ -57,6 +57,18 @@ class Hardware:
         object.__setattr__(self, "gain_errors", tuple(errors.tolist()))
         object.__setattr__(self, "tilts", tuple(tuple(tilt) for tilt in tilts.tolist()))
 
+    def __str__(self) -> str:
+        """In words, in SI units."""
+        said = [
+            f"steps of {self.quantum:g}" if self.quantum > 0.0 else "",
+            f"{self.delay:g} s late" if self.delay > 0.0 else "",
+            _listed("too large by", [f"{error:g}" for error in self.gain_errors]),
+            _listed("turned by", [str(list(tilt)) for tilt in self.tilts])
+            + " rad" * bool(self.tilts),
+            "held back by slew and supply" if self.ramps else "",
+        ]
+        return ", ".join(filter(None, said)) or "as told"
+
     def built(self, actuator: Actuator) -> Actuator:
         """The actuator as it stands in the laboratory: with its coils tilted.
 
@@ -83,6 +95,10 @@ class Hardware:
     def line(self, actuator: Actuator, time_step: float, start: ArrayLike) -> Line:
         """What turns commands into inputs, step after step, from inputs at rest, shape (m,)."""
         return Line(self, actuator.inputs, time_step, start)
+
+
+def _listed(what: str, values: list[str]) -> str:
+    return f"{what} {' '.join(values)}" if values else ""
 
 
 class Line:

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from magwire.cli.options import Flag
+from magwire.cli.reading import Points, triple
 from magwire.cli.words import CommandError
 from magwire.units import parse
 
@@ -17,10 +19,7 @@ if TYPE_CHECKING:
 
 RATE = 50.0
 
-Texts = Annotated[
-    tuple[str, ...],
-    Parameter(allow_leading_hyphen=True, consume_multiple=True, negative=""),
-]
+Numbers = Annotated[tuple[float, ...], Parameter(consume_multiple=True, negative="")]
 
 
 @Parameter(name="*")
@@ -96,7 +95,7 @@ class Departures:
         By which part each input is too large, such as 0.03 -0.03 0.03; one for each, or for all.
     tilt
         Turn of the field of each input about the actuator's origin, such as "1 deg, 0 deg, 0 deg";
-        one for each.
+        once for each.
     ramps
         Let inputs change no faster than slew, inductance and supply allow; so they do, too, with
         any other of these options.
@@ -104,9 +103,9 @@ class Departures:
 
     quantum: str | None = None
     delay: str | None = None
-    gain_error: Texts = ()
-    tilt: Texts = ()
-    ramps: Annotated[bool, Parameter(negative="")] = False
+    gain_error: Numbers = ()
+    tilt: Points = ()
+    ramps: Flag = False
 
     def hardware(self, actuator: Actuator | None) -> Hardware | None:
         """The hardware; None if nothing is said of it.
@@ -117,7 +116,6 @@ class Departures:
             What the options are about.
         """
         from magwire.actuate import Hardware
-        from magwire.cli.reading import triple
 
         if self == EXACT:
             return None
@@ -128,7 +126,7 @@ class Departures:
         made = Hardware(
             quantum=0.0 if self.quantum is None else _quantum(self.quantum, actuator),
             delay=0.0 if self.delay is None else parse(self.delay, "time", "--delay"),
-            gain_errors=tuple(_share(text) for text in self.gain_error),
+            gain_errors=self.gain_error,
             tilts=tuple(_vector(triple(text, "angle", "--tilt")) for text in self.tilt),
         )
         made.built(actuator)  # refuses a number of errors that is not the inputs'
@@ -148,15 +146,6 @@ def _quantum(text: str, actuator: Actuator) -> float:
             f"inputs {', '.join(one.name for one in actuator.inputs)}."
         )
     return parse(text, kinds[units.pop()], "--quantum")
-
-
-def _share(text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        raise CommandError(
-            f"Input --gain-error must be numbers such as 0.03; received {text!r}."
-        ) from None
 
 
 def _vector(values: list[float]) -> tuple[float, float, float]:
