@@ -100,7 +100,7 @@ def test_check_names_what_is_wrong_and_ends_with_1(
     current = next(line for line in said if "input Ix is" in line)
     assert "6 mm of feed, input Ix is -8 A; the limit is -7.5 A." in current
     assert any("the wire is fed by 1 mm/s; the limit is 0.5 mm/s." in line for line in said)
-    assert any("mT off the planned one; the tolerance is" in line for line in said)
+    assert any("mT from the planned one; the tolerance is" in line for line in said)
     assert said[-1].startswith("3 violations: ")
     wide = ["--tolerance", "2 mT"]
     assert main(["check", str(schedule), "--actuator", str(other), *wide]) == 1

@@ -274,5 +274,5 @@ def _field(table: Timetable, actuator: Actuator, tolerance: float | None) -> _Fi
     planned = np.isfinite(table.flux_density).all(axis=1)
     away = np.linalg.norm(field_made(table, actuator) - table.flux_density, axis=1)
     most = usual_tolerance(table) if tolerance is None else tolerance
-    words = "the field at the tip is {0} mT off the planned one; the tolerance is {1} mT."
+    words = "the field at the tip is {0} mT from the planned one; the tolerance is {1} mT."
     return _Figure("field", np.where(planned, away, 0.0), most, words, scale=1e3)

@@ -56,7 +56,7 @@ def figures(table: Timetable, actuator: Actuator, tolerance: float | None) -> It
         away = np.linalg.norm(field_made(table, actuator) - table.flux_density, axis=1)[planned]
         most = usual_tolerance(table) if tolerance is None else tolerance
         limit = f" (tolerance {1e3 * most:.4g} mT)" if math.isfinite(most) else ""
-        yield _row("field off the plan", f"at most {1e3 * float(away.max()):.4g} mT{limit}")
+        yield _row("field error", f"at most {1e3 * float(away.max()):.4g} mT{limit}")
 
 
 def verdict(found: Sequence[Violation]) -> str:
