@@ -394,3 +394,43 @@ calibration = "{FOLDER / "octomag_calibration.yaml"}"
     assert "the lumen is 42.1 mm outside" in said[0]
     assert said[0].endswith("or ask for extrapolation by actuator.extrapolate = true.")
     parse(half_circle(table + "extrapolate = true\n"), ["navigate.method=none"])
+
+
+QUICK = ["solver.time_step=50 ms", "feed.speed=2 mm/s", "output.record_every=1 mm"]
+
+
+def test_the_half_circle_in_stated_coils_takes_less_power_than_its_field() -> None:
+    """Of the same plan, power is never more, and here a seventh less."""
+    power, field = (
+        load("half-circle-helmholtz", [*QUICK, f"navigate.objective={one}"]).run()
+        for one in ("power", "field")
+    )
+    for result in (power, field):
+        assert result.status == "complete", result.message
+        assert result.max_tip_force == 0.0
+    assert np.all(power.power <= 1.001 * field.power + 1e-6)
+    assert power.power.max() < 0.87 * field.power.max()
+    assert np.abs(power.inputs).max() <= 25.0
+
+
+def test_the_half_circle_by_a_magnet_keeps_tip_and_magnet_clear() -> None:
+    scenario = load("half-circle-magnet", QUICK)
+    result = scenario.run()
+    assert result.status == "complete", result.message
+    assert result.max_tip_force == 0.0
+    assert scenario.actuator is not None
+    magnet = scenario.actuator.build()
+    assert isinstance(magnet, Magnet)
+    lumen = np.column_stack([result.dataset["centreline"].values, result.dataset["lumen_radius"]])
+    near = min(float((magnet.distance(u, lumen[:, :3]) - lumen[:, 3]).min()) for u in result.inputs)
+    assert near >= 0.06
+    speeds = np.abs(np.diff(result.inputs[:, :3], axis=0)) / np.diff(result.time)[:, None]
+    assert speeds.max() <= 0.1
+    assert replayed(result).run().max_tip_force == 0.0
+
+
+def test_a_magnet_that_is_too_weak_says_that_it_is_as_near_as_it_may() -> None:
+    result = load("half-circle-magnet", [*QUICK, "actuator.remanence=0.6 T"]).run()
+    assert result.status == "no field"
+    assert "mm of feed the magnet is " in result.message
+    assert "from the vessel, as near as it may" in result.message

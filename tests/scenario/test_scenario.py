@@ -16,6 +16,8 @@ LIBRARY = (
     "carotid",
     "coronary",
     "half-circle",
+    "half-circle-helmholtz",
+    "half-circle-magnet",
     "half-circle-narrow",
     "half-circle-wide",
     "helix",

@@ -178,3 +178,19 @@ def linearise(model, state, mouth, work, linear):
             slope += sign * quotient(work.band, linear.mode, last) / (2.0 * probe)
         linear.slope[axis] = slope
     return value
+
+
+@kernel
+def steadiness(model, state, mouth, work, mode):
+    """Smallest eigenvalue [rad^2/s^2] of an equilibrium in whatever field, 0 if it is not stable.
+
+    ``mode`` [rows] starts as a guess and ends as its mode.
+    """
+    held = mouth.held
+    still = Motion(0.0, work.target)
+    last = 4 * (state.q.shape[0] - held + 1) - 1
+    assemble(model, state, mouth, still, work.gradient, work.band)
+    if factor(work.band, FIRST, last) >= 0:
+        return 0.0
+    mix(mode, last)
+    return slowest_mode(work.band, model[0], held, mode, last)

@@ -26,6 +26,7 @@ from magwire.engine.sensitivity import derivative
 from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.errors import InputError, array, one_of
+from magwire.navigate.direct import Direct
 from magwire.navigate.inputs import InputSchedule
 from magwire.navigate.model import across
 from magwire.navigate.navigator import NavigationError, Navigator, Observation, Steering
@@ -40,8 +41,6 @@ POINTS = 201  # of the path, from which a magnet keeps away
 REACH = 0.02  # longest step of a magnet's coordinate [m], and of its direction, in one round
 LEAST = 1e-3  # field that others are measured against [T]: less of it turns no tip by much
 CORRECTIONS = 6  # of the inputs at a knot
-SAVINGS = 6  # rounds in which the power at a knot is brought down
-LITTLE = 1e-3  # of the power, with which it is left at that
 CLOSE = 1e-9  # two feeds are the same [m]
 SLACK = 1.0 + 1e-6  # room for rounding in rates
 ON_PLAN = 0.01  # tip off the plan, over the radius, and field along it, over the planned one
@@ -65,8 +64,9 @@ class Allocated:
         Who plans the field, such as a ``TipNavigator``.
     objective
         ``"field"``: the planned field is made where the magnet is, at the least power.
-        ``"power"``: only the planned tip, and the field along it, are kept to; a torque or a pull
-        that takes less power than the planned field is then taken.
+        ``"power"``: from there the inputs go on to the least power with which tip and stability are
+        what the planner's demands ask for, if it has any: a torque or a pull may cost less than the
+        field. Of a magnet on an arm it is always the way that is least.
     """
 
     steering: Steering
@@ -113,7 +113,7 @@ class AllocatingNavigator:
         self, navigator: Navigator, system: System, *, objective: Objective = "power"
     ) -> None:
         assert system.actuator is not None
-        self._currents = np.array([one.unit == "A" for one in system.actuator.inputs])
+        self._currents = np.array([one.unit not in ("m", "") for one in system.actuator.inputs])
         self._saves = objective == "power" and bool(self._currents.all())
         self.navigator, self._system, self._actuator = navigator, system, system.actuator
         begin, end = system.wire.magnet
@@ -126,6 +126,10 @@ class AllocatingNavigator:
         self._feed = float("inf")
         self._plant = Plant(system.smooth)
         self._unit = system.path.narrowest
+        planner = getattr(navigator, "navigator", navigator)  # of one that tries again
+        demands = getattr(planner, "demands", None)
+        self._direct = None if demands is None else Direct(self._plant, demands, self._prices)
+        self._every = float(getattr(planner, "plan_every", np.inf))
 
     def plan(self, observation: Observation, until: float) -> InputSchedule:
         """The inputs from the observed feed to the feed ``until`` [m].
@@ -135,6 +139,8 @@ class AllocatingNavigator:
         NavigationError
             If no field does what is asked for, or no inputs within the limits make it.
         """
+        if self._direct is not None and isinstance(self._actuator, Magnet):
+            return self._moved(self._direct, observation, until)
         course = self.navigator.plan(observation, until)
         assert isinstance(course, Schedule)
         low, high = sorted((observation.feed, until))
@@ -160,16 +166,53 @@ class AllocatingNavigator:
         at = f"At {1e3 * feed:.4g} mm of feed"
         if found is None:
             raise NavigationError(f"{at} {binding(self._actuator, place, flux, start)}")
-        tip = self.expected_tip(feed)
+        known = getattr(self.navigator, "expected_tip", None)
+        tip = None if known is None else known(feed)
+        if tip is not None and not self._follow(feed, found):
+            raise NavigationError(f"{at} {ASTRAY}")
         if tip is not None and np.any(flux):
-            if not self._follow(feed, found) or not self._correct(tip, flux):
+            if not self._correct(tip, flux):
                 raise NavigationError(f"{at} {ASTRAY}")
-            if self._saves:
-                self._save(tip, flux)
             found = self._plant.inputs
+            if self._saves and self._direct is not None:
+                found = self._saved(self._direct, found)
         if isinstance(self._actuator, Magnet):
             self._keep_out(self._actuator, found, feed)
         return found
+
+    def _saved(self, direct: Direct, found: Array) -> Array:
+        """Inputs of less power that do what is asked for; those found if there are none."""
+        plant, weak = self._plant, direct.weak
+        start = plant.snapshot()
+        plant.inputs = weak * found
+        settled = plant.settle(self._system.step_limits())[0] is Status.CONVERGED
+        if settled and direct.improve(plant.inputs, np.full(len(found), FREE)):
+            less = plant.inputs / weak
+            if self._prices @ less**2 < self._prices @ found**2:
+                return less
+        plant.restore(start)
+        return found
+
+    def _moved(self, direct: Direct, observation: Observation, until: float) -> InputSchedule:
+        """The poses of a magnet up to a feed, each the nearest one to that before."""
+        count = max(1, int(np.ceil(abs(until - observation.feed) / self._every - 1e-6)))
+        knots = np.linspace(observation.feed, until, count + 1)
+        slews = np.array([one.slew for one in self._actuator.inputs])
+        rows = [self._last]
+        for before, feed in itertools.pairwise(knots):
+            time = abs(feed - before) / abs(observation.speed) if observation.speed else np.inf
+            reach = np.minimum(slews * time, FREE)
+            if not direct.feed_to(float(feed)) or not direct.improve(rows[-1], reach):
+                raise NavigationError(direct.why(float(feed)))
+            rows.append(self._unit_direction(self._plant.inputs))
+            self._plant.inputs = rows[-1]
+        self._last, self._feed = rows[-1], float(until)
+        order = np.argsort(knots)
+        return InputSchedule(knots[order], np.array(rows)[order], self._system.input_names)
+
+    def _unit_direction(self, pose: Array) -> Array:
+        """A magnet's pose with a direction of length one."""
+        return np.concatenate((pose[:3], pose[3:] / np.linalg.norm(pose[3:])))
 
     def _follow(self, feed: float, inputs: Array) -> bool:
         """Bring the model to a feed and inputs by equilibria; whether they were found."""
@@ -191,29 +234,6 @@ class AllocatingNavigator:
             if not self._change(rows, off):
                 return False
         return float(np.abs(off).max()) < ASIDE
-
-    def _save(self, tip: Array, flux: Array) -> None:
-        """Go on to the least power with which the model's tip is where it is planned, stably."""
-        plant, actuator = self._plant, self._actuator
-        best, spent = plant.snapshot(), self._cost(plant.inputs)
-        for _ in range(SAVINGS):
-            rows, off = self._to_first_order(tip, flux)
-            if not plant.released or not self._change(rows, off):
-                break
-            _, off = self._to_first_order(tip, flux)
-            power = self._cost(plant.inputs)
-            if np.abs(off).max() > ON_PLAN or actuator.violations(plant.inputs):
-                continue
-            if not power < spent or not plant.stable:
-                break
-            gained, spent, best = spent - power, power, plant.snapshot()
-            if gained < LITTLE * spent:
-                break
-        plant.restore(best)
-
-    def _cost(self, inputs: Array) -> float:
-        """Power, or the sum of squares where no resistance is known."""
-        return float(self._prices @ inputs**2)
 
     def _to_first_order(self, tip: Array, flux: Array) -> tuple[Array, Array]:
         """How the tip and the field along it change with the inputs, and how far they are off.
@@ -298,6 +318,9 @@ class AllocatingNavigator:
 
     def expected_tip(self, feed: float) -> Array | None:
         """Where the tip should be at a feed [m], shape (3,) [m]; None if that is not known."""
+        if abs(feed - self._feed) < CLOSE and self._direct is not None:
+            here: Array = self._plant.observe().tip
+            return here
         known = getattr(self.navigator, "expected_tip", None)
         tip: Array | None = None if known is None else known(feed)
         return tip
