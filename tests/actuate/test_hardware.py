@@ -149,7 +149,7 @@ def test_a_background_is_not_tilted_and_parts_are() -> None:
 def test_faults() -> None:
     with pytest.raises(InputError, match="one for each of 3 inputs, or one for all; received 2"):
         Hardware(gain_errors=(0.1, 0.2)).built(Uniform())
-    with pytest.raises(InputError, match="tilts of Misaligned must be one for each of 1 inputs"):
+    with pytest.raises(InputError, match="tilts of Hardware must be one for each of 1 inputs"):
         Hardware(tilts=((0.0, 0.0, 0.1), (0.0, 0.0, 0.1))).built(coil())
     with pytest.raises(InputError, match="must be of coils; received a magnet"):
         Hardware(tilts=((0.0, 0.0, 0.1),) * 6).built(Magnet(radius=0.02, remanence=1.0))

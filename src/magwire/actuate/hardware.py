@@ -75,7 +75,7 @@ class Hardware:
         Raises
         ------
         InputError
-            If there is not one gain error, or tilt, for each input.
+            If there is not one gain error, or tilt, for each input, or a magnet is to be tilted.
         """
         count = len(actuator.inputs)
         if len(self.gain_errors) not in (0, 1, count):
@@ -85,6 +85,11 @@ class Hardware:
             )
         if not self.tilts:
             return actuator
+        if len(self.tilts) != count:
+            raise InputError(
+                f"Input tilts of Hardware must be one for each of {count} inputs; "
+                f"received {len(self.tilts)}."
+            )
         return Misaligned(
             actuator=actuator,
             tilts=self.tilts,

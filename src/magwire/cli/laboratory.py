@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
@@ -32,7 +31,8 @@ class Playing:
     rate
         Samples per second, for --to inputs; 50 if left out.
     actuator
-        TOML file with the actuator, for --to inputs; that of the result's scenario if left out.
+        TOML file, or scenario of the library, with the actuator, for --to inputs; that of the
+        result's scenario if left out.
     resolution
         Feed of one step of the advancer's stepper, such as "5 um"; no steps are written without it.
     backlash
@@ -42,7 +42,7 @@ class Playing:
     """
 
     rate: float | None = None
-    actuator: Path | None = None
+    actuator: str | None = None
     resolution: str | None = None
     backlash: str | None = None
     max_speed: str | None = None

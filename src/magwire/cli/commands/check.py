@@ -11,7 +11,7 @@ def check(
     schedule: Path,
     /,
     *,
-    actuator: Path,
+    actuator: str,
     tolerance: str | None = None,
     max_speed: str | None = None,
 ) -> int:
@@ -24,7 +24,7 @@ def check(
     schedule
         inputs.nc or inputs.csv of 'magwire export --to inputs', or the folder that holds them.
     actuator
-        TOML file with the actuator as it is, with its saturation.
+        TOML file, or scenario of the library, with the actuator as it is, with its saturation.
     tolerance
         How far the field may be off the planned one, such as "0.5 mT"; 2 percent of the largest
         planned field if left out.
