@@ -141,3 +141,17 @@ def test_a_wire_near_its_source_is_kirchhoffs_rod(
     assert np.abs(found.positions - expected).max() < 1e-3 * L
     # The gradient's force is no small part of it.
     assert np.abs(solved(one, source, pull=0.0) - expected).max() > 5e-3 * L
+
+
+def test_a_wire_that_snaps_onto_the_magnet_is_told_so() -> None:
+    """Turned the other way the magnet draws the tip on to itself; 60 mm away it only bends it."""
+    simulation = mw.Simulation(wire(5e3), mw.Lumen.open_space(), actuator=MAGNET)
+
+    def pose(away: float) -> Array:
+        return np.array([0.8 * L, -(away + 0.5 * LENGTH), 0.0, 0.0, -1.0, 0.0])
+
+    far = simulation.equilibrium(L, inputs=pose(0.06))
+    assert far.stable
+    assert MAGNET.distance(pose(0.06), far.positions).min() > 0.02
+    with pytest.raises(mw.ConvergenceError, match="the wire snaps onto the magnet: its axis comes"):
+        simulation.equilibrium(L, inputs=pose(0.04))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from magwire.actuate.actuator import Actuator
 from magwire.actuate.advancer import Advancer
-from magwire.actuate.magnet import Magnet
+from magwire.actuate.magnets import magnets
 from magwire.actuate.pace import ROUNDING, Pace
 from magwire.actuate.timetable import Timetable
 from magwire.actuate.together import Together
@@ -212,7 +212,7 @@ def _lasting(values: Array) -> Array:
 def _places(table: Timetable, actuator: Actuator) -> Iterator[_Figure]:
     words = "the tip is {0} mm outside of where the actuator is calibrated."
     yield _Figure("workspace", actuator.outside(table.tip), 0.0, words, scale=1e3)
-    for magnet, first, points in _magnets(actuator, table.centreline):
+    for magnet, first, points in magnets(actuator, table.centreline):
         if magnet.keep_out <= 0.0:
             continue
         if len(points) == 0:
@@ -230,19 +230,6 @@ def _places(table: Timetable, actuator: Actuator) -> Iterator[_Figure]:
         )
         words = "the magnet is {0} mm from the vessel; it must keep {1} mm away."
         yield _Figure("keep-out", near, magnet.keep_out, words, scale=1e3, least=True)
-
-
-def _magnets(
-    actuator: Actuator, points: Array, first: int = 0
-) -> Iterator[tuple[Magnet, int, Array]]:
-    """Magnets, their first input, and points as they see them."""
-    if isinstance(actuator, Magnet):
-        yield actuator, first, points
-    if isinstance(actuator, Together):
-        own = actuator.pose.own(points)
-        for part in actuator.parts:
-            yield from _magnets(part, own, first)
-            first += len(part.inputs)
 
 
 def _feeding(table: Timetable, max_speed: float | None) -> Iterator[_Figure]:
