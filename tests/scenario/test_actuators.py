@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.actuate.handed import FOLDER, needs_files
 
+from actuate.handed import FOLDER, needs_files
 from magwire import Result
 from magwire.actuate import Helmholtz, Loops, Magnet, Map, Maxwell, Omnimagnet, Uniform
 from magwire.errors import InputError, ScenarioError

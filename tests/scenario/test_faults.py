@@ -523,8 +523,9 @@ FAULTS = (
         "unknown name",
         (),
         "There is no scenario 'xyz'; expected one of 'aortic-arch', 'carotid', 'coronary', "
-        "'half-circle', 'half-circle-narrow', 'half-circle-wide', 'helix', 'left-branch', "
-        "'middle-branch', 'right-branch', 'sinusoid', 'straight', 'tortuous'.",
+        "'half-circle', 'half-circle-helmholtz', 'half-circle-magnet', 'half-circle-narrow', "
+        "'half-circle-wide', 'helix', 'left-branch', 'middle-branch', 'right-branch', "
+        "'sinusoid', 'straight', 'tortuous'.",
         "xyz",
     ),
 )

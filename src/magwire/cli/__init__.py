@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from cyclopts import App, CycloptsError
 
 import magwire
+from magwire.cli.commands.actuator import actuator
 from magwire.cli.commands.animate import animate
 from magwire.cli.commands.bench import bench
 from magwire.cli.commands.check import check
@@ -47,6 +48,7 @@ app = App(
     suppress_keyboard_interrupt=False,  # what is said then is said below
 )
 for command in (
+    actuator,
     animate,
     bench,
     check,

@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from magwire.actuate import Actuator, Input, Magnet
 from magwire.engine.command import Drive
-from magwire.engine.plant import Plant
+from magwire.engine.plant import Plant, Snapshot
 from magwire.engine.point import Point
 from magwire.engine.sensitivity import derivative
 from magwire.engine.status import Status
@@ -124,6 +124,7 @@ class AllocatingNavigator:
         self._prices = prices_of(inputs)
         self._last = system.idle_inputs
         self._feed = float("inf")
+        self._needed: Array | None = None  # inputs without limits, where the limits bind
         self._plant = Plant(system.smooth)
         self._unit = system.path.narrowest
         planner = getattr(navigator, "navigator", navigator)  # of one that tries again
@@ -168,17 +169,34 @@ class AllocatingNavigator:
             raise NavigationError(f"{at} {binding(self._actuator, place, flux, start)}")
         known = getattr(self.navigator, "expected_tip", None)
         tip = None if known is None else known(feed)
-        if tip is not None and not self._follow(feed, found):
-            raise NavigationError(f"{at} {ASTRAY}")
-        if tip is not None and np.any(flux):
-            if not self._correct(tip, flux):
-                raise NavigationError(f"{at} {ASTRAY}")
+        before, self._needed = self._plant.snapshot(), None
+        if tip is not None:
+            there = self._follow(feed, found)
+            if not there or (np.any(flux) and not self._correct(tip, flux)):
+                return self._aside(feed, before, f"{at} {self._lacking() or ASTRAY}")
             found = self._plant.inputs
-            if self._saves and self._direct is not None:
+            if self._saves and self._direct is not None and np.any(flux):
                 found = self._saved(self._direct, found)
+        over = self._actuator.violations(found)
+        if over:
+            raise NavigationError(f"{at} a limit binds. {over[0]}")
         if isinstance(self._actuator, Magnet):
             self._keep_out(self._actuator, found, feed)
         return found
+
+    def _lacking(self) -> str:
+        """Which limit is in the way of the tip, as the end of a sentence; "" if none is known."""
+        if self._needed is None:
+            return ""
+        limits = np.maximum(np.abs(self._low), np.abs(self._high))
+        worst = int(np.argmax(np.abs(self._needed) / limits))
+        one, needed = self._actuator.inputs[worst], float(abs(self._needed[worst]))
+        if needed <= limits[worst]:
+            return ""
+        return (
+            f"input {one.name} is at its limit of {limits[worst]:g} {one.unit}; to bring the tip "
+            f"to where it is planned takes {needed:.3g} {one.unit}."
+        )
 
     def _saved(self, direct: Direct, found: Array) -> Array:
         """Inputs of less power that do what is asked for; those found if there are none."""
@@ -191,6 +209,20 @@ class AllocatingNavigator:
             if self._prices @ less**2 < self._prices @ found**2:
                 return less
         plant.restore(start)
+        return found
+
+    def _aside(self, feed: float, before: Snapshot, why: str) -> Array:
+        """Inputs that are found from those at the feed before, where the plan's field fails."""
+        plant, direct = self._plant, self._direct
+        if not self._saves or direct is None:
+            raise NavigationError(why)
+        plant.restore(before)
+        plant.inputs = direct.weak * plant.inputs
+        settled = plant.settle(self._system.step_limits())[0] is Status.CONVERGED
+        free = np.full(len(plant.inputs), FREE)
+        if not settled or not direct.feed_to(feed) or not direct.improve(plant.inputs, free):
+            raise NavigationError(why)
+        found: Array = plant.inputs / direct.weak
         return found
 
     def _moved(self, direct: Direct, observation: Observation, until: float) -> InputSchedule:
@@ -265,6 +297,11 @@ class AllocatingNavigator:
             (np.maximum(self._low - u, -near), np.minimum(self._high - u, near)),
         )
         if change is None:
+            free = np.full(len(u), FREE)
+            wanted = _programme(
+                self._prices, np.where(self._currents, u, 0.0), (rows, off), (-free, free)
+            )
+            self._needed = None if wanted is None else u + wanted
             return False
         plant.inputs = np.clip(u + change, self._low, self._high)
         return plant.settle(self._system.step_limits())[0] is Status.CONVERGED

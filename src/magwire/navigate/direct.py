@@ -35,6 +35,7 @@ LEAST_TRUST = 3e-3
 SETTLED = 3e-3  # programmes end when no input changes by more, in its unit
 PROBE = 2e-3  # change of an input for its derivatives, in its unit
 PENALTY = 300.0  # price of missing a constraint
+FORBIDDEN = 1e4  # price of coming too near to the vessel
 MISSED = 0.05  # part of the radius, or of the margin, by which one may be missed
 STRETCH = 0.1  # of a magnet's position that counts as one [m]
 TURN = 0.3  # of its direction that counts as one
@@ -155,7 +156,7 @@ class Direct:
     def meets(self, sight: Sight) -> bool:
         """Whether an equilibrium does what is asked for, or misses it by little."""
         over, under = self._misses(sight)
-        return over <= MISSED and under <= MISSED
+        return over <= MISSED and under <= MISSED and self._spare() >= 0.0
 
     def look(self) -> Sight | None:
         """The equilibrium as it is; None if it is not stable."""
@@ -201,10 +202,9 @@ class Direct:
             for edge in (one.low, one.high)
             if one.unit and abs(value - edge) <= AT * max(1.0, abs(edge)) < np.inf
         ]
-        if isinstance(self._actuator, Magnet):
-            near = float(self._distances(self._actuator, self.plant.inputs).min())
-            if near < self._actuator.keep_out + 1e-3:
-                said.append(f"the magnet is {1e3 * near:.3g} mm from the vessel, as near as it may")
+        if isinstance(self._actuator, Magnet) and self._spare() < 2.0 * SPARE:
+            near = 1e3 * (self._actuator.keep_out + self._spare())
+            said.append(f"the magnet is {near:.3g} mm from the vessel, as near as it may")
         return ", ".join(said)
 
     def _units(self) -> Array:
@@ -248,12 +248,16 @@ class Direct:
 
     def _merit(self, sight: Sight, before: Array) -> float:
         over, under = self._misses(sight)
-        close = 0.0
-        if isinstance(self._actuator, Magnet):
-            least = self._actuator.keep_out + SPARE
-            near = float(self._distances(self._actuator, self.plant.inputs).min())
-            close = max(0.0, (least - near) / STRETCH)
-        return self.cost(self.plant.inputs, before) + PENALTY * (over + under + close)
+        close = max(0.0, SPARE - self._spare()) / STRETCH
+        missed = PENALTY * (over + under) + FORBIDDEN * close
+        return self.cost(self.plant.inputs, before) + missed
+
+    def _spare(self) -> float:
+        """How much farther than it must a magnet is from the vessel [m]."""
+        if not isinstance(self._actuator, Magnet):
+            return np.inf
+        near = float(self._distances(self._actuator, self.plant.inputs).min())
+        return near - self._actuator.keep_out
 
     def cost(self, u: Array, before: Array) -> float:
         """Half of the power over that of the inputs before; of a magnet the square of its way."""
@@ -279,7 +283,7 @@ class Direct:
         more = rows.shape[1] - count
         solution, _, flag, _ = daqp.solve(
             np.diag(np.concatenate([weight + 1e-6, np.full(more, 1e-3)])),
-            np.concatenate([slope, np.full(more, PENALTY)]),
+            np.concatenate([slope, [PENALTY, PENALTY, FORBIDDEN][:more]]),
             np.ascontiguousarray(rows),
             np.concatenate([high, np.full(more, 1e3), upper]),
             np.concatenate([low, np.zeros(more), np.full(len(upper), -FREE)]),

@@ -10,6 +10,7 @@ from magwire.errors import InputError
 from magwire.scenario.kind import FAMILIES, Faults, KindTable
 from magwire.scenario.kinds.navigate import ModelSteering
 from magwire.scenario.kinds.navigate.inputs import InputSteering
+from magwire.scenario.kinds.navigate.stable import StableSteering
 from magwire.scenario.model import Scenario
 from magwire.scenario.quantity import SLACK
 from magwire.scenario.table import FaultyKeyError
@@ -91,7 +92,7 @@ def magnet_to_steer(scenario: Scenario) -> Faults:
 def inputs_to_steer(scenario: Scenario) -> Faults:
     """Who steers by inputs has an actuator that has them."""
     navigate, table = scenario.navigate, scenario.actuator
-    if isinstance(navigate, ModelSteering) and navigate.objective and table is None:
+    if isinstance(navigate, StableSteering) and navigate.objective and table is None:
         yield (
             "Input navigate.objective needs an [actuator] whose inputs are planned; "
             f"received '{navigate.objective}' without one."

@@ -40,7 +40,6 @@ class ModelSteering(NavigatorTable):
     """A navigator that has a model of the wire; it takes a magnet and a field of its own."""
 
     update_every: Length = preset("0.5 mm")
-    objective: Objective | None = None
 
     @property
     def interval(self) -> float:

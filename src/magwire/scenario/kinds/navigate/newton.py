@@ -27,5 +27,4 @@ class NewtonSteering(ModelSteering):
         return in_inputs(
             simulation.system,
             lambda system: NewtonNavigator(system, plan_every=self.plan_every),
-            self.objective,
         )

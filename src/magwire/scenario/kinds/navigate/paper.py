@@ -41,5 +41,4 @@ class PaperSteering(ModelSteering):
         return in_inputs(
             simulation.system,
             lambda system: PaperNavigator(system, optimiser=optimiser),
-            self.objective,
         )

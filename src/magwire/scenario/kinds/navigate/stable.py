@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from magwire.scenario.kind import kind
-from magwire.scenario.kinds.navigate import FieldLimit, ModelSteering, in_inputs
+from magwire.scenario.kinds.navigate import FieldLimit, ModelSteering, Objective, in_inputs
 from magwire.scenario.quantity import Length, Quantity, Share, Whole
 from magwire.scenario.table import preset
 
@@ -25,6 +25,7 @@ class StableSteering(ModelSteering):
     """The least field that keeps the tip clear of the wall, stably."""
 
     method: Literal["stable"]
+    objective: Objective | None = None
     plan_every: Length | None = None
     tip_clearance: Part = 0.4
     stability_margin: Stability = preset("1 1/s^2")

@@ -1,0 +1,51 @@
+"""``magwire actuator plot``: what is drawn, what is said, what is refused."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from magwire.cli import main
+
+PLOT = ("actuator", "plot")
+
+
+def test_coils_are_drawn_with_the_fields_that_they_make(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    picture = tmp_path / "coils.png"
+    thin = [f"actuator.pairs.{k}.width=0 mm" for k in range(3)]
+    words = [word for text in thin for word in ("--set", text)]
+    assert main([*PLOT, "half-circle-helmholtz", *words, "--out", str(picture)]) == 0
+    said = capsys.readouterr().out
+    assert said.startswith("In the middle, at 12.5, 25, 0 mm: ")
+    assert "mT in its worst" in said
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    assert main([*PLOT, "half-circle-helmholtz", "--out", str(picture)]) == 1
+    assert "exists already; use --force" in capsys.readouterr().err
+
+
+def test_a_table_alone_is_drawn_too(tmp_path: Path) -> None:
+    (tmp_path / "field.toml").write_text(
+        '[actuator]\nkind = "uniform"\nmax_component = "20 mT"\n', encoding="utf-8"
+    )
+    assert main([*PLOT, str(tmp_path / "field.toml"), "--out", str(tmp_path / "field.svg")]) == 0
+    assert "<svg" in (tmp_path / "field.svg").read_text(encoding="utf-8")
+
+
+def test_a_magnet_is_drawn_with_its_reach(tmp_path: Path) -> None:
+    from magwire.actuate import Magnet
+    from magwire.plot.actuators import Scene, draw
+    from magwire.scenario import load_actuator
+
+    magnet = load_actuator("half-circle-magnet")
+    assert isinstance(magnet, Magnet)
+    low, high = magnet.pose.shift - 0.05, magnet.pose.shift + 0.05
+    figure = draw(magnet, Scene(low, high, magnet.idle), None)
+    assert {ax.get_ylabel() for ax in figure.axes} >= {"flux density [mT]", "y [mm]"}
+
+
+def test_a_scenario_without_an_actuator_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([*PLOT, "half-circle"]) == 1
+    assert "must have a table [actuator]" in capsys.readouterr().err
