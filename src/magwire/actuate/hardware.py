@@ -114,7 +114,7 @@ class Line:
     hardware
         What it does to them.
     inputs
-        Of the actuator.
+        What the actuator has, with their limits.
     time_step
         dt [s].
     start

@@ -24,7 +24,7 @@ class Pace:
     slew
         Largest rate of each input, shape (m,); infinite for the parts of a magnet's direction.
     resistance, inductance, supply
-        Of each coil's circuit, shape (m,) [ohm, H, V].
+        Those of each coil's circuit, shape (m,) [ohm, H, V].
     turns
         First part of each magnet's direction, shape (p,).
     turning

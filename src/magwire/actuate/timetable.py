@@ -27,7 +27,7 @@ class Timetable:
     inputs
         Shape (k, m), in their ``units``.
     names, units
-        Of the inputs.
+        Those of the inputs, in SI.
     tip
         Where the tip is planned to be, shape (k, 3) [m].
     flux_density
@@ -38,7 +38,7 @@ class Timetable:
     advancer
         The stepper.
     centreline, lumen_radius
-        Of the vessel, shape (n, 3) and (n,) [m]; empty if not known.
+        Those of the vessel, shape (n, 3) and (n,) [m]; empty if not known.
 
     Raises
     ------
