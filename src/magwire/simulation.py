@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from magwire.actuate import Actuator
+from magwire.actuate import Actuator, Hardware, Uniform
 from magwire.contact import Barrier, Friction
 from magwire.engine.feed import Feed
 from magwire.engine.hold import Hold
@@ -135,6 +136,7 @@ class Simulation:
         record_every: float = 1e-4,
         update_every: float | None = None,
         until: float | None = None,
+        hardware: Hardware | None = None,
         out: str | Path | None = None,
         title: str = "",
         scenario: str = "",
@@ -162,6 +164,10 @@ class Simulation:
         until
             Arc parameter of the way to the lumen's target [m]: the run ends at the first record
             whose tip has come so far. If left out, it ends with the feed.
+        hardware
+            How the actuator departs from its model: whoever steers knows the model, the wire is in
+            the field that the hardware makes, and the inputs of the result are those that flow. The
+            actuator is as its model says if left out.
         out
             NetCDF file to write as the run goes; none if left out.
         title, scenario
@@ -195,7 +201,14 @@ class Simulation:
             apart = min(finer, feed.fastest * feed.duration)
             parts = np.ceil(apart / (0.5 * self.system.wire.edge_length) - 1e-9)
             time_step = apart / float(parts) / feed.fastest
-        march = March(self.system, self.field, feed, time_step=time_step, inertia=inertia)
+        march = March(
+            self._built(hardware),
+            self.field,
+            feed,
+            time_step=time_step,
+            inertia=inertia,
+            hardware=hardware,
+        )
         every, update = (_steps(length, feed, time_step) for length in (record_every, update_every))
         if navigator is None:
             records = march.records(every)
@@ -206,6 +219,7 @@ class Simulation:
             watchers.append(Until(until, self.tip_arc))
         watchers += [watch] if callable(watch) else watch or ()
         info = self.info(title=title, scenario=scenario, motion=motion)
+        info = replace(info, hardware="" if hardware is None else str(hardware))
         with Writer(info, out) as writer, held_back_interrupt() as strike:
             try:
                 for record in records:
@@ -224,6 +238,14 @@ class Simulation:
             except NavigationError as error:
                 writer.close("no field", str(error))
         return writer.result()
+
+    def _built(self, hardware: Hardware | None) -> System:
+        """The system with the actuator as it stands in the laboratory."""
+        if hardware is None:
+            return self.system
+        instance("Simulation.run", "hardware", hardware, Hardware)
+        built = hardware.built(self.system.actuator or Uniform())
+        return replace(self.system, actuator=built)
 
     def session(
         self,

@@ -83,6 +83,15 @@ class Pose:
         """The pose applied to what ``inner`` has placed."""
         return Pose.of(self.matrix @ inner.matrix, self.matrix @ inner.shift + self.shift)
 
+    def direction(self, vector: ArrayLike) -> Array:
+        """A vector of the actuator's own frame, shape (3,), in space."""
+        along: Array = self.matrix @ np.asarray(vector, dtype=np.float64)
+        return along
+
+    def placed(self, point: ArrayLike) -> Array:
+        """A point of the actuator's own frame, shape (3,) [m], in space."""
+        return self.direction(point) + self.shift
+
     def own(self, points: Array) -> Array:
         """Points, shape (n, 3) [m], in the actuator's own frame."""
         return (points - self.shift) @ self.matrix

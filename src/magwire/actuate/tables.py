@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from magwire.actuate.pose import Pose
+from magwire.actuate.pose import HERE, Pose
 from magwire.errors import InputError
 from magwire.kernels.sources import table
 from magwire.kernels.sources.drive import saturated
@@ -115,15 +116,33 @@ class Desk:
         What each input of the actuator is there.
     pose
         Where the actuator's frame is.
+    turns
+        A frame inside of that for what is laid for each channel; none if empty.
     """
 
-    def __init__(self, tables: Tables, slots: tuple[Slot, ...], pose: Pose) -> None:
+    def __init__(
+        self,
+        tables: Tables,
+        slots: tuple[Slot, ...],
+        pose: Pose,
+        turns: Mapping[int, Pose] | None = None,
+    ) -> None:
         self.tables, self.slots, self.pose = tables, slots, pose
         self._held = [slot.value for slot in slots]
+        self._turns = turns or {}
 
     def within(self, pose: Pose, slots: tuple[Slot, ...] | None = None) -> Desk:
         """A desk in a frame inside of this one, with other slots if they are given."""
-        return Desk(self.tables, self.slots if slots is None else slots, self.pose.after(pose))
+        chosen = self.slots if slots is None else slots
+        return Desk(self.tables, chosen, self.pose.after(pose), self._turns)
+
+    def tilted(self, turns: Sequence[Pose]) -> Desk:
+        """The same desk with a frame of its own for what is laid for each input."""
+        own = {
+            slot.channel: self._turns.get(slot.channel, HERE).after(turn)
+            for slot, turn in zip(self.slots, turns, strict=True)
+        }
+        return Desk(self.tables, self.slots, self.pose, own)
 
     def saturate(self, k: int, curve: Saturation) -> None:
         """Give input ``k`` a curve; before any source of its is laid."""
@@ -141,27 +160,27 @@ class Desk:
         held = self._held[k]
         return (self.slots[k].channel, 1.0) if held is None else (self.tables.inputs, held)
 
-    def _turn(self, vector: ArrayLike) -> Array:
-        turned: Array = self.pose.matrix @ np.asarray(vector, dtype=np.float64)
-        return turned
-
-    def _place(self, point: ArrayLike) -> Array:
-        return self._turn(point) + self.pose.shift
+    def _frame(self, channel: int) -> Pose:
+        """Where what is laid for a channel stands."""
+        turn = self._turns.get(channel)
+        return self.pose if turn is None else self.pose.after(turn)
 
     def affine(
         self, k: int | None, flux: ArrayLike, gradient: ArrayLike = ((0.0,) * 3,) * 3
     ) -> None:
         """A field B + G x for input 1: B, shape (3,) [T], and G, shape (3, 3) [T/m]."""
         channel, factor = self._channel(k)
-        turn = self.pose.matrix
+        frame = self._frame(channel)
+        turn = frame.matrix
         g = turn @ np.asarray(gradient, dtype=np.float64) @ turn.T
-        b = self._turn(flux) - g @ self.pose.shift
+        b = frame.direction(flux) - g @ frame.shift
         self.tables.affine[channel] += factor * np.concatenate([b, g.ravel()])
 
     def dipole(self, k: int | None, position: ArrayLike, moment: ArrayLike) -> None:
         """A dipole with mu0 m/(4 pi), shape (3,) [T m^3], for input 1."""
         channel, factor = self._channel(k)
-        row = np.concatenate([self._place(position), factor * self._turn(moment)])
+        frame = self._frame(channel)
+        row = np.concatenate([frame.placed(position), factor * frame.direction(moment)])
         self.tables.dipoles.append((channel, row))
 
     def multipole(
@@ -169,20 +188,22 @@ class Desk:
     ) -> None:
         """A source of any order at ``place`` = (position, direction), for input 1."""
         channel, factor = self._channel(k)
-        row = np.concatenate([self._place(place[0]), self._turn(place[1])])
+        frame = self._frame(channel)
+        row = np.concatenate([frame.placed(place[0]), frame.direction(place[1])])
         self.tables.multipoles.append((channel, row, factor * outward, factor * inward))
 
     def loop(self, k: int | None, place: tuple[Array, Array], radius: float, gain: float) -> None:
         """A loop at ``place`` = (centre, axis); gain is mu0 N/(2 pi) [T m] for input 1."""
         channel, factor = self._channel(k)
-        row = np.concatenate([self._place(place[0]), self._turn(place[1]), [radius, factor * gain]])
+        frame, size = self._frame(channel), [radius, factor * gain]
+        row = np.concatenate([frame.placed(place[0]), frame.direction(place[1]), size])
         self.tables.loops.append((channel, row))
 
     def map(self, k: int | None, coefficients: Array, first: Array, step: Array) -> None:
         """A map's spline coefficients for input 1, in this frame."""
         channel, factor = self._channel(k)
-        frame = [first, step, self.pose.shift, self.pose.matrix.ravel()]
-        grid = np.concatenate(frame)
+        frame = self._frame(channel)
+        grid = np.concatenate([first, step, frame.shift, frame.matrix.ravel()])
         other = self.tables.grid
         if other is not None and not np.array_equal(other, grid):
             raise InputError("Maps that act together must be on one grid; received two grids.")
@@ -212,8 +233,9 @@ class Desk:
             kind, rows = table.CYLINDER, tables.cylinders
         if not free:
             values = np.array([slot.value for slot in self.slots], dtype=np.float64)
-            axis = self._turn(values[3:] / np.linalg.norm(values[3:]))
-            row[:3], row[3:6] = self._place(values[:3]), axis * (moment if shape is None else 1.0)
+            axis = self.pose.direction(values[3:] / np.linalg.norm(values[3:]))
+            row[:3] = self.pose.placed(values[:3])
+            row[3:6] = axis * (moment if shape is None else 1.0)
         else:
             frame = np.concatenate([self.pose.matrix.ravel(), self.pose.shift])
             tables.posed.append((kind, len(rows), self.slots[0].channel))

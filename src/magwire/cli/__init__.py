@@ -12,6 +12,7 @@ import magwire
 from magwire.cli.commands.actuator import actuator
 from magwire.cli.commands.animate import animate
 from magwire.cli.commands.bench import bench
+from magwire.cli.commands.check import check
 from magwire.cli.commands.devices import devices
 from magwire.cli.commands.doctor import doctor
 from magwire.cli.commands.export import export
@@ -50,6 +51,7 @@ for command in (
     actuator,
     animate,
     bench,
+    check,
     devices,
     doctor,
     export,

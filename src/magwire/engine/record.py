@@ -80,6 +80,7 @@ class RunInfo:
     motion: Motion = "dynamic"
     inputs: tuple[tuple[str, str], ...] = UNIFORM_INPUTS
     resistances: tuple[float, ...] = ()
+    hardware: str = ""
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from magwire.actuate.magnets import nearest_magnet
 from magwire.engine.hold import Hold, carry
 from magwire.engine.plant import Plant
 from magwire.engine.point import Point
@@ -160,7 +161,7 @@ def find_equilibrium(
     elif held < system.wire.nodes:
         done = settle(system, source, state, mouth, plant.work)
         plant.sample_again()
-    if done.reason:
+    if done.reason or _to_magnet(system, state) < system.wire.radius:
         raise _failure(system, feed, done.reason, state)
     seen = plant.survey()
     stable = seen.stable
@@ -242,8 +243,19 @@ def follow(plant: Plant, start: Equilibrium, feed: float, twist: float) -> None:
         raise _failure(system, plant.feed, status.remedy, plant.state)
 
 
+def _to_magnet(system: System, state: State) -> float:
+    """Distance of the free nodes from the nearest magnet of the actuator [m]."""
+    free = state.q[int(state.held[0]) + 1 :, :3] * system.scales.length
+    return nearest_magnet(system.actuator, state.inputs, free)
+
+
 def _failure(system: System, feed: float, reason: str, state: State) -> ConvergenceError:
-    return ConvergenceError(
-        f"The equilibrium at {feed * 1e3:.4g} mm of feed was not found: {reason}.",
-        state.q[1:, :3] * system.scales.length,
-    )
+    near = _to_magnet(system, state)
+    said = f"The equilibrium at {feed * 1e3:.4g} mm of feed was not found: {reason}."
+    if near < system.wire.radius:
+        where = f"{1e3 * near:.3g} mm from" if near > 0.0 else f"{-1e3 * near:.3g} mm inside"
+        said = (
+            f"At {feed * 1e3:.4g} mm of feed the wire snaps onto the magnet: its axis comes to "
+            f"{where} the surface; move the magnet away, or turn it round."
+        )
+    return ConvergenceError(said, state.q[1:, :3] * system.scales.length)

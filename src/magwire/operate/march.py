@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.actuate import Hardware, Uniform
 from magwire.engine.command import Drive
 from magwire.engine.feed import Feed
 from magwire.engine.plant import Plant
@@ -33,6 +34,9 @@ class March:
         dt [s].
     inertia
         Without it the steps are equilibria: the quasi-static march.
+    hardware
+        What stands between the inputs that are asked for and those that the plant gets; nothing if
+        left out.
 
     Attributes
     ----------
@@ -50,6 +54,7 @@ class March:
         *,
         time_step: float,
         inertia: bool = True,
+        hardware: Hardware | None = None,
     ) -> None:
         self.time_step = positive("Simulation", "time_step", time_step, "s")
         self._length = system.wire.length
@@ -66,6 +71,11 @@ class March:
         first, twist = self._course(1, first=0)
         self.plant = Plant(system, source, feed=float(first[0]), twist=float(twist[0]))
         self._inputs: Array = self.plant.inputs[None]
+        self._line = (
+            None
+            if hardware is None
+            else hardware.line(system.actuator or Uniform(), time_step, self.plant.inputs)
+        )
         self.plant.record()
 
     def _course(self, count: int, *, first: int | None = None) -> tuple[Array, Array]:
@@ -122,7 +132,8 @@ class March:
         count = min(steps, self.steps - self.step)
         feed, twist = self._ahead(count)
         inputs = self._inputs[np.minimum(np.arange(count), len(self._inputs) - 1)]
-        done = self.plant.advance(Drive(feed, twist, inputs, self.time_step, self._inertia))
+        made = inputs if self._line is None else self._line.made(inputs)
+        done = self.plant.advance(Drive(feed, twist, made, self.time_step, self._inertia))
         self._inputs = self._inputs[min(done, len(self._inputs) - 1) :]
         back = min(done, len(self._detour))
         self._detour, self._detoured = self._detour[back:], self._detoured + back

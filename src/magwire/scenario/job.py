@@ -12,6 +12,7 @@ from magwire.scenario.kind import refusals
 from magwire.simulation import Simulation
 
 if TYPE_CHECKING:
+    from magwire.actuate import Hardware
     from magwire.engine.feed import Feed
     from magwire.engine.record import Record
     from magwire.results import Result
@@ -93,7 +94,11 @@ class Job:
         )
 
     def run(
-        self, out: Path | None = None, *, watch: Callable[[Record], None] | None = None
+        self,
+        out: Path | None = None,
+        *,
+        watch: Callable[[Record], None] | None = None,
+        hardware: Hardware | None = None,
     ) -> Result:
         """Run it.
 
@@ -103,6 +108,8 @@ class Job:
             NetCDF file to write as the run goes; none if left out.
         watch
             Called with every record.
+        hardware
+            How the actuator departs from its model; see ``Simulation.run``.
         """
         navigate = self.scenario.navigate
         return self.simulation.run(
@@ -114,5 +121,6 @@ class Job:
             record_every=self.record_every,
             out=out,
             scenario=self.scenario.to_toml(),
+            hardware=hardware,
             watch=watch,
         )

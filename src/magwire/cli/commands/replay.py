@@ -6,6 +6,7 @@ from pathlib import Path
 
 from magwire.cli.commands.run import carry_out
 from magwire.cli.folders import RESULT
+from magwire.cli.laboratory import EXACT, Departures
 from magwire.cli.options import Flag, Overrides
 
 
@@ -15,11 +16,15 @@ def replay(
     *,
     scale: float = 1.0,
     resample: str | None = None,
+    departures: Departures = EXACT,
     overrides: Overrides = None,
     out: Path | None = None,
     force: Flag = False,
 ) -> int:
     """Run a result's scenario again in the field that was recorded, whatever the wire does.
+
+    With an actuator its inputs are played, through hardware that departs from its model where an
+    option says so: the wire is then in the field that the hardware makes.
 
     Parameters
     ----------
@@ -44,4 +49,5 @@ def replay(
     described = replayed(Result.load(result), overrides or (), scale=scale, resample=step)
     name = result.resolve() if result.is_dir() or result.name != RESULT else result.resolve().parent
     folder = out or Path(f"{name.stem}-replay")
-    return carry_out(described, folder, force=force)
+    actuator = None if described.actuator is None else described.actuator.build()
+    return carry_out(described, folder, hardware=departures.hardware(actuator), force=force)

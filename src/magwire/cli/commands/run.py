@@ -20,6 +20,7 @@ from magwire.cli.words import INTERRUPTED, CommandError, complain, say, say_if_c
 from magwire.files import write_whole
 
 if TYPE_CHECKING:
+    from magwire.actuate import Hardware
     from magwire.results import Result
     from magwire.scenario import Scenario
     from magwire.scenario.job import Job
@@ -73,8 +74,12 @@ def carry_out(
     compare: bool = False,
     draw: bool = True,
     force: bool = False,
+    hardware: Hardware | None = None,
 ) -> int:
-    """Run a scenario and leave all that comes of it in a folder; the exit status."""
+    """Run a scenario and leave all that comes of it in a folder; the exit status.
+
+    With ``hardware`` the wire is in the field that it makes; see ``Simulation.run``.
+    """
     check_free(folder, force=force)
     job = described.build()  # all faults before anything is written
     for note in described.notes:
@@ -84,7 +89,7 @@ def carry_out(
             for name in (RESULT, PASSIVE, SCHEDULE, *FIGURES):
                 (folder / name).unlink(missing_ok=True)
             write_whole(folder / SCENARIO, described.to_toml())
-        results = [simulate(job, folder / RESULT)]
+        results = [simulate(job, folder / RESULT, hardware=hardware)]
         if compare and results[0] is not None and results[0].status != "interrupted":
             results.append(simulate(described.unsteered().build(), folder / PASSIVE))
         return _report(described, job.simulation.system.wire, folder, results, draw=draw)
@@ -145,7 +150,7 @@ def outcome(result: Result | None) -> int:
     return INTERRUPTED if result.status == "interrupted" else 1
 
 
-def simulate(job: Job, file: Path) -> Result | None:
+def simulate(job: Job, file: Path, *, hardware: Hardware | None = None) -> Result | None:
     """Run a job with a progress bar; None if it was interrupted before its first record."""
     from magwire.report.progress import running
     from magwire.results import Result
@@ -153,6 +158,6 @@ def simulate(job: Job, file: Path) -> Result | None:
     say_if_compiling()
     with running(job.feed.duration) as show:
         try:
-            return job.run(file, watch=show)
+            return job.run(file, watch=show, hardware=hardware)
         except KeyboardInterrupt:  # the file says "interrupted" by now
             return Result.load(file) if file.exists() else None
