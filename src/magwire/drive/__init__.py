@@ -1,5 +1,9 @@
-"""A wire driven by a person, live."""
+"""A wire driven by a person, live, in a browser; ``pip install magwire[drive]``."""
 
+from __future__ import annotations
+
+from magwire.drive.account import Account, Sight
 from magwire.drive.pilot import DEAD_MAN, Pilot
+from magwire.drive.serving import serve
 
-__all__ = ["DEAD_MAN", "Pilot"]
+__all__ = ["DEAD_MAN", "Account", "Pilot", "Sight", "serve"]
