@@ -87,7 +87,7 @@ class Room:
         guest.tell("world", json.dumps({"world": self.world}, allow_nan=False))
         self.guests.append(guest)
         if self.driver is None:
-            self.driver = guest
+            self._hand_over(guest)
         self._counted()
         sending = asyncio.ensure_future(guest.deliver())
         try:
@@ -110,6 +110,9 @@ class Room:
         for guest in self.guests:
             guest.tell(kind, text)
 
+    def _hand_over(self, guest: Guest) -> None:
+        self.driver, self._heard = guest, 0
+
     def _counted(self) -> None:
         self.clockwork.watched = bool(self.guests)
         self._roles()
@@ -130,7 +133,7 @@ class Room:
             if word == "take":
                 if self.driver is not guest:
                     self.clockwork.order(self.pilot.let_go)
-                self.driver = guest
+                    self._hand_over(guest)
                 self._roles()
             elif guest is not self.driver:
                 raise InputError("Another page drives: take the controls first.")
@@ -150,8 +153,8 @@ class Room:
                 act()
             except MagwireError as error:
                 self._post(guest, str(error))
-            if isinstance(number, int) and not isinstance(number, bool):
-                self._heard = number
+            if isinstance(number, int) and guest is self.driver:
+                self._heard = int(number)
 
         self.clockwork.order(order)
 
