@@ -2,6 +2,7 @@
 "use strict";
 ((parts) => {
   const { add, scale, sub, unit, cross, dot } = parts.algebra;
+  const BY_PROCESSOR = { willReadFrequently: true }; // small pictures, and there may be no other one
   const GRAIN = 160; // pixels of a tile of noise
   const TILES = 5;
   const LEVELS = [174, 180, 184]; // of what shadows nothing: grey, a little cold
@@ -18,7 +19,7 @@
     return Array.from({ length: TILES }, () => {
       const tile = document.createElement("canvas");
       tile.width = tile.height = GRAIN;
-      const pen = tile.getContext("2d");
+      const pen = tile.getContext("2d", BY_PROCESSOR);
       const image = pen.createImageData(GRAIN, GRAIN);
       for (let k = 0; k < image.data.length; k += 4) {
         const dark = chance() < 0.5;
@@ -81,7 +82,7 @@
     // The empty field of view with the roadmap.
     paintStill() {
       const { width, height } = this.still;
-      const pen = this.still.getContext("2d");
+      const pen = this.still.getContext("2d", BY_PROCESSOR);
       const [r, g, b] = LEVELS;
       const field = pen.createRadialGradient(width / 2, height / 2, 0.1 * height, width / 2, height / 2, 0.75 * Math.hypot(width, height) / 1.2);
       field.addColorStop(0, `rgb(${r},${g},${b})`);
@@ -97,7 +98,7 @@
     outline() {
       const layer = document.createElement("canvas");
       [layer.width, layer.height] = [this.still.width, this.still.height];
-      const pen = layer.getContext("2d");
+      const pen = layer.getContext("2d", BY_PROCESSOR);
       pen.lineCap = "butt";
       for (const [operation, colour, less] of [["source-over", ROADMAP, 0], ["destination-out", "#000", 2.6]]) {
         pen.globalCompositeOperation = operation;
@@ -147,8 +148,7 @@
     paint() {
       if (!this.project) return;
       const { width, height } = this.canvas;
-      const pen = this.canvas.getContext("2d");
-      pen.globalAlpha = 1;
+      const pen = this.canvas.getContext("2d", BY_PROCESSOR);
       pen.drawImage(this.still, 0, 0);
       if (this.points) this.paintWire(pen);
       this.count += 1;
