@@ -23,6 +23,7 @@ from PIL import Image
 
 import magwire as mw
 from browsers import started
+from magwire.actuate import Helmholtz, Pair
 from magwire.cli import main
 from magwire.drive import DEAD_MAN, DriveError, Outcome, serve
 from magwire.drive.doors import Doors
@@ -30,7 +31,7 @@ from magwire.navigate import NavigationError
 
 pytest.importorskip("websockets", reason="websockets is not installed")
 
-WAIT = 30.0  # longest time for anything [s]
+WAIT = 120.0  # longest time for anything, compiling among it [s]
 SPEED = 4e-3
 
 
@@ -321,6 +322,39 @@ def test_the_navigator_leads_to_the_target_that_is_clicked(tmp_path: Path) -> No
             # It is the person's turn: back, where it was.
             seen = await hand.heard(await hand.say(rewind=100.0))
             assert seen["feed"] == 0.0
+            await hand.say(end=True)
+            await hand.hear(lambda: hand.report)
+
+    asyncio.run(drive())
+    served.end()
+
+
+def test_coils_are_driven_by_their_currents(tmp_path: Path) -> None:
+    pairs = tuple(Pair(axis, radius=0.15, turns=300, max_current=40.0) for axis in "xyz")
+    plain = simulation().system
+    coils = mw.Simulation(plain.wire, plain.lumen, actuator=Helmholtz(pairs=pairs))
+    served = Served(tmp_path, coils)
+
+    async def drive() -> None:
+        async with connect(served) as line:
+            hand = Hand(line)
+            await hand.hear(lambda: hand.pictures)
+            assert not hand.world["uniform"]
+            assert [(one["unit"], one["high"]) for one in hand.world["inputs"]] == [("A", 40.0)] * 3
+            await hand.say(field=[0.0, 10.0, 0.0])
+            await hand.hear(lambda: hand.pictures[-1]["inputs"] == [0.0, 10.0, 0.0])
+            # B at the centre of a Helmholtz pair: (4/5)^(3/2) mu0 n I / R.
+            centre = 0.8**1.5 * 4e-7 * np.pi * 300 * 10.0 / 0.15
+            assert hand.pictures[-1]["field"][1] == pytest.approx(centre, rel=1e-3)
+            await hand.say(field=[0.0, 41.0, 0.0])
+            await hand.hear(lambda: hand.said)
+            assert "between -40 and 40 A; received 41 A" in hand.said[0]
+            await hand.say(help="assist")
+            seen = hand.pictures[-1]
+            while seen["feed"] < 2e-3:  # the navigator's field is found in amperes
+                seen = await hand.heard(await hand.say(hold=[SPEED, 0.0]))
+                await asyncio.sleep(0.05)
+            assert np.abs(seen["inputs"]).max() < 10.0
             await hand.say(end=True)
             await hand.hear(lambda: hand.report)
 

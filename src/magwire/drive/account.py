@@ -17,15 +17,15 @@ class Sight:
     Attributes
     ----------
     time, feed, twist
-        Simulated [s]; of the guide [m, rad].
+        Simulated time [s]; feed and angle of the guide [m, rad].
     points, forces
-        Of the nodes: positions, and force of the wall on each, shape (nodes, 3) [m, N].
+        Positions of the nodes, and force of the wall on each, shape (nodes, 3) [m, N].
     push, torque
-        Of the guide on the wire [N, N m].
+        Force and torque of the guide on the wire [N, N m].
     field
         At the tip, shape (3,) [T].
     inputs
-        Of the actuator, shape (m,).
+        Inputs of the actuator, shape (m,).
     clearance
         Smallest anywhere along the wire [m].
     """
@@ -67,7 +67,7 @@ class Account:
     impulse
         That force over time [N s].
     work
-        Of the guide on the wire, by feed and twist [J].
+        Work of the guide on the wire, by feed and twist [J].
     retractions
         How often the guide began to go back.
     """

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from magwire.engine.plant import Plant
 from magwire.navigate import NavigationError, Navigator, Observation
 from magwire.navigate.navigator import Course
+from magwire.operate.steering import Persistent
 
 Array = NDArray[np.float64]
 
@@ -23,6 +24,8 @@ AGAIN = 5e-4  # feed after which a plan that failed is tried again [m]
 
 class Foresight:
     """Inputs for a wire, each stretch planned in a thread of its own.
+
+    A navigator that would go back and try again cannot do so by itself: who feeds is told where to.
 
     Parameters
     ----------
@@ -39,6 +42,7 @@ class Foresight:
         self._asked = self._stretch = (0.0, 0.0)
         self._course: Course | None = None
         self._failed: tuple[float, float, NavigationError] | None = None
+        self._back: float | None = None  # feed from which a persistent navigator tries again
 
     def inputs(self, feed: float, speed: float) -> Array | None:
         """Inputs for a feed [m] that the wire is about to come to; None while they are planned.
@@ -50,8 +54,16 @@ class Foresight:
         """
         now = self._plant.feed
         way = float(np.sign(feed - now))
-        self._take(way)
-        if self._failed is not None:
+        self._take()
+        if self._back is not None and self._failed is not None:
+            if way > 0.0 and now > self._back + REST:
+                raise NavigationError(
+                    f"{self._failed[2]} Go back to {1e3 * self._back:.4g} mm: the navigator tries "
+                    "again from there."
+                )
+            if way > 0.0:
+                self._back = self._failed = self._course = None
+        elif self._failed is not None:
             where, failed_way, failure = self._failed
             if failed_way == way and abs(where - now) < AGAIN:
                 raise failure
@@ -86,10 +98,22 @@ class Foresight:
             if self._navigator is None:
                 self._navigator = self._make()
             plan.set_result(self._navigator.plan(told, until))
+        except NavigationError as failure:
+            plan.set_exception(self._persist(told, failure))
         except Exception as error:  # raised where the plan is taken up
             plan.set_exception(error)
 
-    def _take(self, way: float) -> None:
+    def _persist(self, told: Observation, failure: NavigationError) -> NavigationError:
+        """Have a persistent navigator say where to go back to, if it does not give up."""
+        if not isinstance(self._navigator, Persistent):
+            return failure
+        try:
+            self._back = self._navigator.go_back(told, failure)
+        except NavigationError as given_up:
+            return given_up
+        return failure
+
+    def _take(self) -> None:
         """Take up what has been planned meanwhile."""
         if self._pending is None or not self._pending.done():
             return

@@ -64,7 +64,7 @@ def world(simulation: Simulation, *, title: str, limit: float, help_note: str) -
     title
         What it is called.
     limit
-        Of the wall's force [N].
+        Limit of the force of the wall [N].
     help_note
         Why no navigator helps; empty if one does.
     """

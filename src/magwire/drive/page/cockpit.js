@@ -198,6 +198,7 @@
     // A button at the end of each branch.
     outlets() {
       const ways = Object.entries(this.world.ways);
+      this.find(".helps p").hidden = this.world.target === null;
       if (this.world.target === null) return;
       for (const [name, way] of ways) {
         const button = Object.assign(document.createElement("button"), { className: "outlet", textContent: name, title: "Make this the target" });

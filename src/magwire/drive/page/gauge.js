@@ -42,7 +42,7 @@
 
   parts.Gauge = Gauge;
   parts.newtons = (force) => {
-    const [size, unit] = Math.abs(force) >= 1 ? [force, "N"] : [1e3 * force, "mN"];
+    const [size, unit] = Math.abs(force) >= 1 ? [force, "N"] : [Math.abs(force) < 5e-6 ? 0 : 1e3 * force, "mN"];
     return `${size >= 100 ? size.toFixed(0) : size >= 10 ? size.toFixed(1) : size.toFixed(2)} ${unit}`;
   };
 })((window.magwireParts ??= {}));

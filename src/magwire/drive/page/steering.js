@@ -100,7 +100,7 @@
       const { right, up, back } = this.camera.axes();
       const half = this.canvas.width / 2;
       const [x, y] = [half + 0.86 * half * dot(direction, right), half - 0.86 * half * dot(direction, up)];
-      const towards = dot(direction, back) >= -1e-9;
+      const towards = dot(direction, back) > -0.02; // across the view counts as towards
       pen.strokeStyle = pen.fillStyle = colour;
       pen.lineWidth = thick;
       pen.setLineDash(towards ? [] : [6, 5]);

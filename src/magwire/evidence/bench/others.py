@@ -29,8 +29,8 @@ LEARNING_NOTE = (
     "MuJoCo: 100 nodes in a channel, steps of 0.07 ms, nothing observed."
 )
 DRIVING_NOTE = (
-    "Half-circle, dt = 10 ms, a headless Chromium, all on this machine. From the key's event to the\n"
-    "picture in which a pixel has changed, the wire at rest before; the screen comes on top."
+    "Half-circle, dt = 10 ms, a headless Chromium, all on this machine. From the key's event to\n"
+    "the picture in which a pixel has changed, the wire at rest before; the screen comes on top."
 )
 
 # What it is, which start, from which mark to which.
