@@ -412,6 +412,7 @@ def test_without_the_package(
     monkeypatch.chdir(tmp_path)
     assert main(["drive", "straight"]) == 1
     assert "pip install magwire[drive]" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
     with pytest.raises(DriveError):
         serve(simulation())
 

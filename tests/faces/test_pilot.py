@@ -215,6 +215,52 @@ def test_the_wire_waits_for_the_navigator_and_time_does_not(session: Session) ->
     assert session.plant.feed == there  # it says so until somebody retracts
 
 
+def test_assist_keeps_the_tip_off_the_wall(session: Session) -> None:
+    """Into the bend, where a wire that nobody steers presses on the wall from 13 mm on.
+
+    All of the half-circle is in campaigns/drive_pictures.py: 25 s of planning.
+    """
+    system = session.plant.system
+    pilot = Pilot(session, navigator=lambda: mw.TipNavigator(plan_every=1e-3).start(system))
+    pilot.ask("assist")
+    until = time.monotonic() + 120.0
+    while session.plant.feed < 22e-3 and time.monotonic() < until:
+        pilot.hold(2 * SPEED)
+        pilot.tick()
+        if pilot.message:
+            time.sleep(5e-3)
+    assert session.plant.feed >= 22e-3
+    assert session.plant.totals.max_tip_force == 0.0
+    assert pilot.account.peak_force == 0.0
+    assert np.linalg.norm(session.plant.inputs) > 1e-3
+
+
+def test_a_step_that_fails_leaves_the_wire_and_the_way_back(
+    session: Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A field that no wire bears; by hand it is refused."""
+    session.step(feed_speed=SPEED, duration=5.0)
+    pilot = Pilot(session, clock=Clock())
+    monkeypatch.setattr("magwire.drive.pilot.LARGEST", math.inf)
+    monkeypatch.setattr(pilot, "_slew", np.full(3, 1e6))
+    pilot.hold(SPEED)
+    for _ in range(20):
+        pilot.steer([0.0, -4e4, 0.0])
+        before = pilot.sight
+        now = pilot.tick()
+        if pilot.message:
+            break
+        pilot.steer([0.0, 4e4, 0.0])
+        pilot.tick()
+    assert "did not converge" in pilot.message
+    np.testing.assert_array_equal(now.points, before.points)
+    assert now.time == before.time
+    pilot.rewind(100.0)
+    pilot.tick()
+    assert pilot.message == ""
+    assert pilot.sight.time > 0.0
+
+
 def test_suggestions_leave_the_inputs_alone(session: Session) -> None:
     along = Along()
     along.may.set()

@@ -107,7 +107,7 @@ def serve(
     DriveError
         If the package that serves pages is missing, or the port cannot be listened at.
     """
-    _check_package()
+    check_package()
     note = ""
     try:
         _maker(steering, simulation)()
@@ -258,7 +258,14 @@ def hands(pilot: Pilot) -> str:
     return "\n".join(["time [s],feed speed [m/s],twist rate [rad/s]", *rows]) + "\n"
 
 
-def _check_package() -> None:
+def check_package() -> None:
+    """Refuse to go on where the package that serves pages is missing.
+
+    Raises
+    ------
+    DriveError
+        If it is.
+    """
     try:
         import websockets  # noqa: F401
     except ModuleNotFoundError:

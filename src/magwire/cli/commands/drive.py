@@ -47,12 +47,13 @@ def drive(
     force
         Overwrite what a former run left in the folder.
     """
-    from magwire.drive import serve
+    from magwire.drive import check_package, serve
     from magwire.errors import positive
     from magwire.report.run import COLUMN
     from magwire.scenario import load
     from magwire.units import parse
 
+    check_package()
     most = None if limit is None else positive("drive", "--limit", parse(limit, "force", "--limit"))
     described = load(scenario, overrides or ())
     job = described.build()
