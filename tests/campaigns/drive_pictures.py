@@ -138,15 +138,15 @@ def film(browser: Any, folder: Path) -> None:
 
 
 def tree(browser: Any, folder: Path) -> None:
-    """Choose another outlet, and follow the arrow."""
+    """Choose another outlet."""
     with served("middle-branch") as address:
         visitor = Visitor(browser, address, folder)
         visitor.page.click(".outlet >> text=right")
         visitor.page.click("[data-help=suggest]")
         visitor.page.keyboard.down("w")
-        visitor.until("Math.hypot(...(magwire.picture.suggested ?? [0])) > 3e-3")
+        visitor.until("magwire.picture.feed > 0.027")
         visitor.page.keyboard.up("w")
-        visitor.keep("suggest")
+        visitor.keep("target")
         visitor.page.close()
 
 

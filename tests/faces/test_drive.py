@@ -490,6 +490,13 @@ def test_keys_drive_the_wire_and_it_is_seen(chromium: Any, tmp_path: Path) -> No
     shown.page.mouse.down()
     shown.until(f"magwire.picture.feed > {there}")
     shown.page.mouse.up()
+    # A gamepad's left stick, pulled back; one that is let go does not quite come back to zero.
+    pad = "navigator.getGamepads = () => [{connected: true, buttons: [], axes: [0.05, %s, 0, 0]}]"
+    there = shown.ask("magwire.picture.feed")
+    shown.ask(f"({pad % '0.9'}, 0)")
+    shown.until(f"magwire.picture.feed < {there}")
+    shown.ask(f"({pad % '0.1'}, 0)")
+    shown.until("magwire.cockpit.last.feed === 0")
     shown.page.keyboard.down("o")
     shown.until("Math.hypot(...magwire.picture.inputs) > 1e-3")
     shown.page.keyboard.up("o")
@@ -509,7 +516,7 @@ def test_keys_drive_the_wire_and_it_is_seen(chromium: Any, tmp_path: Path) -> No
     shown.page.close()
     result = served.end()
     assert served.outcome is not None
-    assert served.outcome.account.retractions == 1
+    assert served.outcome.account.retractions == 2
     recorded = result.dataset["wall_force"].values
     assert served.outcome.account.peak_force >= recorded.max() > 0.0
 
