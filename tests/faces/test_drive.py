@@ -396,7 +396,19 @@ def test_ctrl_c_closes_the_recording(tmp_path: Path) -> None:
         words = iter(process.stdout.readline, "")
         address = next(line for line in words if line.startswith("open http://127.0.0.1:"))
         assert "token" not in address
-        process.send_signal(signal.SIGINT)
+        host = address.split("http://")[1].strip().strip("/")
+
+        async def interrupt() -> None:
+            from websockets.asyncio.client import connect
+
+            async with connect(f"ws://{host}/live", origin=f"http://{host}", proxy=None) as line:
+                hand = Hand(line)
+                await hand.heard(await hand.say(hold=[SPEED, 0.0]))
+                process.send_signal(signal.SIGINT)
+                await hand.hear(lambda: hand.report)  # pages get it, too
+                assert float(hand.report["rows"]["path of the tip"].split()[0]) >= 0.0
+
+        asyncio.run(interrupt())
         rest, _ = process.communicate(timeout=WAIT)
     assert process.returncode == 0
     assert "peak wall force" in rest
