@@ -13,6 +13,7 @@ import pytest
 
 import magwire as mw
 from magwire.drive import DEAD_MAN, Pilot
+from magwire.drive.clockwork import Clockwork
 from magwire.navigate import NavigationError
 from magwire.session import Session
 
@@ -291,3 +292,21 @@ def test_absurd_values_are_refused_and_change_nothing(session: Session, value: f
     feed = session.plant.feed
     pilot.tick()
     assert session.plant.feed == pytest.approx(feed + SPEED * DT)
+
+
+def test_orders_are_carried_out_in_order_also_at_rest(session: Session) -> None:
+    """A key that is pressed and let go at once, while the time stands, stays let go."""
+    pilot = Pilot(session)
+    clockwork = Clockwork(pilot, lambda: None, lambda: None)
+    clockwork.start()
+    until = time.monotonic() + 20.0
+    done: list[int] = []
+    for first in range(0, 200, 2):
+        for number in (first, first + 1):
+            clockwork.order(lambda number=number: done.append(number))  # type: ignore[misc]
+        while len(done) < first + 2 and time.monotonic() < until:
+            time.sleep(1e-4)
+    clockwork.stop()
+    assert clockwork.failure is None
+    assert done == list(range(200))
+    assert session.plant.time == 0.0  # nobody looks and nothing is held

@@ -84,15 +84,18 @@ class Clockwork:
     def _go_on(self) -> None:
         dt = self.pilot.session.time_step
         due = shown = time.monotonic()
+        woken = False
         while not self._stopping.is_set():
-            acted = self._carry_out()
+            acted = self._carry_out() or woken
+            woken = False
             if self._rests():
                 self.rate = 0.0
                 self._past.clear()
                 if acted or shown:
                     self._show()
                 shown = 0.0  # once more is enough while the time stands
-                self._wait()
+                self._orders.get()()
+                woken = True
                 due = time.monotonic()
                 continue
             self.pilot.tick()
@@ -111,11 +114,6 @@ class Clockwork:
             self._orders.get()()
             acted = True
         return acted
-
-    def _wait(self) -> None:
-        """Wait for an order, and leave it to be carried out."""
-        order = self._orders.get()
-        self._orders.put(order)
 
     def _rests(self) -> bool:
         """Whether nothing is asked for and, if anybody looks, nothing moves."""
