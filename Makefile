@@ -38,7 +38,7 @@ docs: $(VENV)/.docs
 	$(BIN)/python -m sphinx -W --keep-going -b html docs docs/_build/html
 	@echo "The documentation starts at docs/_build/html/index.html."
 
-bench: $(VENV)/.run
+bench: $(VENV)/.dev
 	@$(BIN)/magwire bench
 
 format: $(VENV)/.dev

@@ -72,7 +72,16 @@ PAGES_WITH_COMMANDS = (
     "CONTRIBUTING.md",
     *(
         f"docs/{name}.md"
-        for name in ("tutorial", "index", "many", "benchmarks", "reproduce", "view")
+        for name in (
+            "tutorial",
+            "index",
+            "many",
+            "benchmarks",
+            "reproduce",
+            "view",
+            "drive",
+            "your_own",
+        )
     ),
 )
 
@@ -116,6 +125,33 @@ def test_python_examples_run(
     for block in blocks:
         exec(compile(block, page, "exec"), names)
     assert capsys.readouterr().out.startswith("complete ")
+
+
+def test_things_of_ones_own(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The files of the page are what its words say; its coils are driven in test_drive.py."""
+    from magwire.cli import main
+    from magwire.scenario import load
+
+    text = (ROOT / "docs" / "your_own.md").read_text(encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    for name, kind in (("vessel.csv", "text"), ("mine.toml", "toml")):
+        (block,) = re.findall(rf"```{kind}\n(.*?)```", text, re.DOTALL)
+        Path(name).write_text(block, encoding="utf-8")
+    assert main(["lumen", "inspect", "vessel.csv", "--wire", "0.8 mm"]) == 0
+    assert re.search(r"end-2 +86\.2 .* 12\.91 .* yes", capsys.readouterr().out)
+    assert load("mine.toml").build().simulation.system.path.length == pytest.approx(86.18e-3, 1e-3)
+    given = {}
+
+    def driven(simulation: object, **options: object) -> object:
+        given.update(options, simulation=simulation)
+        return type("Outcome", (), {"rows": dict})()
+
+    monkeypatch.setattr("magwire.drive.serve", driven)
+    (block,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    exec(compile(block, "your_own.md", "exec"), {})
+    assert [one.unit for one in given["simulation"].system.actuator.inputs] == ["A"] * 3
 
 
 def scenario_keys() -> set[str]:

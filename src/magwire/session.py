@@ -78,7 +78,7 @@ class Session:
         if self._recording is None:
             return
         writer, plant = self._recording[0], self.plant
-        if plant.time != self._recorded:  # a rewound wire is earlier than its last record
+        if plant.time != self._recorded:
             writer.append(plant.record())
         if plant.status is not Status.CONVERGED:
             writer.close("not converged", plant.message)
@@ -223,10 +223,16 @@ class Session:
     def restore(self, snapshot: Snapshot) -> None:
         """Come back to a snapshot, from this session or another one of the same simulation.
 
-        What was recorded since stays recorded, and time goes on from the snapshot's.
+        The recording goes back, too: what was recorded at later times is dropped, so that a result
+        is one way of one wire, with times that rise.
         """
         self.plant.restore(snapshot)
-        self._due = min(self._due, self.plant.time)
+        if self._recording is None:
+            return
+        writer, every = self._recording
+        self._recorded = self.plant.time
+        self._due = self._recorded + every
+        writer.rewind(self.plant.record())
 
     @property
     def result(self) -> Result:

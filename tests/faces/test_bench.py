@@ -13,7 +13,7 @@ import pytest
 
 from magwire.cli import main
 from magwire.evidence.bench import learning
-from magwire.evidence.bench.others import by_environment
+from magwire.evidence.bench.others import by_driving, by_environment
 from magwire.evidence.bench.page import load, text
 from magwire.evidence.bench.repeats import exponent, interleaved, least, median
 
@@ -87,6 +87,12 @@ def test_environments_have_a_row_each(monkeypatch: pytest.MonkeyPatch) -> None:
     assert deep["newton"] >= 1.0
     rows = [{"what": name, "threads": 1, "samples": [s]} for name, s in (("a", deep), ("b", whole))]
     assert by_environment(rows).row_count == 2
+
+
+def test_keys_and_pictures_have_a_table() -> None:
+    row = {"what": "a", "painter": "canvas", "latencies": [0.04, 0.02], "pictures": 30.0}
+    made = by_driving([row | {"clock": 1.0}])
+    assert [list(column.cells) for column in made.columns[2:4]] == [["40"], ["40"]]
 
 
 def test_exponent_is_a_slope() -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import shutil
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,6 +13,7 @@ import pytest
 import xarray as xr
 from PIL import Image
 
+from browsers import FLAT, started
 from magwire.cli import main
 from magwire.errors import InputError
 from magwire.results import Result, Writer
@@ -21,32 +21,13 @@ from magwire.scenario import load
 from magwire.view import Page, packing, page
 from records import info, records
 
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-DRAWN = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
-FLAT = ("--no-sandbox", "--disable-3d-apis")
 NASTY = "</script><script>window.caught = 1</script><img src=x onerror='caught=1'> & \u2028"
 
 
 @pytest.fixture(scope="module")
 def chromium() -> Iterator[Any]:
     """What starts a browser, by its arguments; each is started once."""
-    sync = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-    program = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if program is None:
-        pytest.skip("there is no Chromium here to look at pages with")
-    with sync.sync_playwright() as playwright:
-        started: dict[Any, Any] = {}
-
-        def start(arguments: tuple[str, ...] = DRAWN) -> Any:
-            if arguments not in started:
-                started[arguments] = playwright.chromium.launch(
-                    executable_path=program, args=list(arguments)
-                )
-            return started[arguments]
-
-        yield start
-        for browser in started.values():
-            browser.close()
+    yield from started()
 
 
 @pytest.fixture(scope="module")

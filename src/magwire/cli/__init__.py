@@ -15,6 +15,7 @@ from magwire.cli.commands.bench import bench
 from magwire.cli.commands.check import check
 from magwire.cli.commands.devices import devices
 from magwire.cli.commands.doctor import doctor
+from magwire.cli.commands.drive import drive
 from magwire.cli.commands.export import export
 from magwire.cli.commands.list import list_scenarios
 from magwire.cli.commands.lumen import lumen
@@ -54,6 +55,7 @@ for command in (
     check,
     devices,
     doctor,
+    drive,
     export,
     lumen,
     plot,

@@ -21,6 +21,7 @@ FACES = ("matplotlib", "pydantic", "cyclopts", "rich", "tomli-w")
 EXTRAS = {
     "bench": ("mujoco", "pyelastica"),
     "cluster": ("distributed",),
+    "drive": ("websockets",),
     "export": ("mcap", "mcap-ros2-support"),
     "movie": ("imageio-ffmpeg",),
     "vessels": ("trimesh", "vmtk"),

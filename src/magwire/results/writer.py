@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import time
+from bisect import bisect_left
 from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
@@ -43,6 +44,8 @@ FLUSH_SECONDS = 2.0
 FLUSH_SHARE = 0.03
 """Share of the wall time that flushing may take: flushes of a very large file come less often."""
 CHUNK_BYTES = 2**16
+SAME = 1e-9
+"""Times that differ by less are the same [s]."""
 
 
 class Writer:
@@ -77,6 +80,7 @@ class Writer:
         self.path = None if path is None else Path(path)
         self.closed = False
         self._waiting: list[Record] = []
+        self._times: list[float] = []  # of all records, in the file or waiting
         self._last: Record | None = None
         self._written = 0
         self._due = 0.0
@@ -90,8 +94,20 @@ class Writer:
         """Take a record; its arrays must not be changed afterwards."""
         self._last = record
         self._waiting.append(record)
+        self._times.append(record.time)
         if self.path is not None and time.monotonic() >= self._due:
             self.flush()
+
+    def rewind(self, record: Record) -> None:
+        """Go on from a record of a wire that went back: what was recorded since is dropped.
+
+        A file keeps what was flushed until the next flush, which takes it out.
+        """
+        kept = bisect_left(self._times, record.time - SAME)
+        del self._times[kept:]
+        del self._waiting[max(0, kept - self._written) :]
+        self._written = min(self._written, kept)
+        self.append(record)
 
     def flush(self) -> None:
         """Bring what waits in memory into the file, so that it survives the end of the process."""

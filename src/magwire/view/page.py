@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from importlib.resources import files
@@ -80,12 +80,17 @@ def page(results: Sequence[tuple[str | Path, xr.Dataset]]) -> Page:
         # "<" could end the script; as an escape it means the same to JSON.
         "data": json.dumps({"runs": runs}, allow_nan=False).replace("<", "\\u003c"),
     }
-    pieces = part("page.html").split("{{")
+    return Page(filled(part("page.html"), filling))
+
+
+def filled(template: str, filling: Mapping[str, str]) -> str:
+    """A template whose {{names}} are replaced; what they are replaced by is not looked through."""
+    pieces = template.split("{{")
     whole = [pieces[0]]
     for piece in pieces[1:]:
         name, rest = piece.split("}}", 1)
         whole += [filling[name], rest]
-    return Page("".join(whole))
+    return "".join(whole)
 
 
 def part(name: str) -> str:

@@ -28,6 +28,10 @@ LEARNING_NOTE = (
     "Half-circle, 100 nodes, an action is a step of 10 ms; observation and reward included.\n"
     "MuJoCo: 100 nodes in a channel, steps of 0.07 ms, nothing observed."
 )
+DRIVING_NOTE = (
+    "Half-circle, dt = 10 ms, a headless Chromium, all on this machine. From the key's event to\n"
+    "the picture in which a pixel has changed, the wire at rest before; the screen comes on top."
+)
 
 # What it is, which start, from which mark to which.
 STARTS = (
@@ -161,6 +165,25 @@ def by_environment(rows: Sequence[Row]) -> Table:
             f"{median(samples, 'rate'):.0f}",
             f"{max(column(samples, 'rate')):.0f}",
             f"{newton:.2f}" if newton == newton else "",
+        )
+    return made
+
+
+def by_driving(rows: Sequence[Row]) -> Table:
+    """The live simulator in a browser."""
+    made = table(
+        "13  Live simulator: key to changed picture, and pictures while a key is held",
+        *("", "painted by", "key to picture\n[ms]", "worst", "pictures\n/s", "clock"),
+    )
+    for row in rows:
+        latencies = sorted(row["latencies"])
+        made.add_row(
+            row["what"],
+            row["painter"],
+            f"{1e3 * latencies[len(latencies) // 2]:.0f}",
+            f"{1e3 * latencies[-1]:.0f}",
+            f"{row['pictures']:.0f}",
+            f"{row['clock']:.2f}",
         )
     return made
 

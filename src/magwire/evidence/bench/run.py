@@ -28,7 +28,7 @@ def measure(
     """
     import numba
 
-    from magwire.evidence.bench import cases, engines, learning, many, paper, updates
+    from magwire.evidence.bench import cases, driving, engines, learning, many, paper, updates
     from magwire.evidence.bench.machine import load_average, machine
     from magwire.evidence.bench.starts import run_memory, run_starts
 
@@ -50,6 +50,7 @@ def measure(
     )
     results["engines"] = [] if quick else engines.run_engines(min(few, 2), tell)
     results["learning"] = [] if quick else learning.run_learning(min(few, 3), tell)
+    results["driving"] = [] if quick else driving.run_driving(tell)
     settings = {
         "repeats": count,
         "push": extent.push,

@@ -24,6 +24,7 @@
     magnet: rgb("#1b2530"),
     force: rgb("#d55e00"),
     field: rgb("#0072b2"),
+    suggested: rgb("#009e73"),
     ink: "#22303c",
     muted: "#6b7a87",
     grid: "#e3e8ec",

@@ -19,7 +19,7 @@
     constructor(canvas) {
       this.canvas = canvas;
       this.mode = "canvas";
-      this.pen = canvas.getContext("2d");
+      this.pen = canvas.getContext("2d", { willReadFrequently: true }); // painted by the processor: without WebGL that is quicker
       this.still = document.createElement("canvas");
       this.key = "";
       this.moving = { heat: new Float32Array(0), tubes: [], arrows: [] };

@@ -34,12 +34,21 @@
         return;
       }
       this.camera.attach(this.canvas);
-      this.canvas.addEventListener("webglcontextlost", () => {
-        this.start(parts.FlatPainter);
-        this.painter.setWall(this.mesh);
-        this.resize();
-        this.refresh();
-      });
+      this.canvas.addEventListener("webglcontextlost", () => this.flatten());
+    }
+
+    // Go on with plain strokes.
+    flatten() {
+      this.start(parts.FlatPainter);
+      this.painter.setWall(this.mesh);
+      this.resize();
+      this.refresh();
+    }
+
+    // Wait until the picture is drawn.
+    finish() {
+      const { gl } = this.painter;
+      gl?.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
     }
 
     get mode() {
@@ -75,21 +84,22 @@
       return parts.geometry.pressure(this.mesh, points, forces, { skin, spread: SPREAD });
     }
 
-    // points, forces: flat arrays of three for each node [m, N]; field: [x, y, z] at the tip [T].
-    show({ points, forces, field }) {
-      this.state = { points, forces, field };
+    // points, forces: flat arrays of three for each node [m, N]; field: [x, y, z] at the tip [T]; suggested:
+    // what it should be, if anybody says.
+    show({ points, forces, field, suggested = null }) {
+      this.state = { points, forces, field, suggested };
       this.refresh();
     }
 
     refresh() {
       if (!this.state) return;
-      const { points, forces, field } = this.state;
+      const { points, forces, field, suggested } = this.state;
       const heat = this.pressureOf(points, forces);
       const top = this.scales.pressure;
       this.painter.setMoving({
         heat: heat.map((value) => (top > 0 ? value / top : 0)),
         tubes: this.tubes(points),
-        arrows: [...this.forceArrows(points, forces), ...this.fieldArrow(points, field)],
+        arrows: [...this.forceArrows(points, forces), ...this.fieldArrow(points, field), ...this.fieldArrow(points, suggested ?? [0, 0, 0], "suggested")],
       });
       if (this.follow) this.shift = sub(at(points, points.length / 3 - 1), this.camera.target);
       this.draw();
@@ -139,13 +149,13 @@
       return found;
     }
 
-    fieldArrow(points, field) {
+    fieldArrow(points, field, colour = "field") {
       const share = norm(field) / this.scales.field;
       if (!(share > 0.01)) return [];
       const tip = at(points, points.length / 3 - 1);
       const longest = this.follow ? CLOSE_ARROW * this.lumenRadius : FIELD_ARROW * this.size;
       const by = scale(field, longest / this.scales.field);
-      return [{ from: tip, by, radius: 0.0275 * longest, colour: [...parts.colours.field, 1] }];
+      return [{ from: tip, by, radius: 0.0275 * longest, colour: [...parts.colours[colour], 1] }];
     }
 
     // Where the camera has to be to see all of the lumen, from the direction that it looks in.
