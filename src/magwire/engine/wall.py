@@ -33,6 +33,13 @@ FINEST = 64
 """Parts of an edge at most; the certificate of a record is what tells beyond that."""
 
 
+BED = 0.1
+"""Dip of the chords between points at a wall that gives way, over the activation gap, at most."""
+DEEPEST = 0.5
+"""Part of the lumen's smallest radius by which a wall may be pressed in: gaps are known a radius
+deep into it."""
+
+
 class Firmness(NamedTuple):
     """Stiffness K [Pa] and activation gap dhat [m] of a barrier."""
 
@@ -65,6 +72,25 @@ def fit(contact: Barrier, wire: Wire, path: Lumen) -> Firmness:
         stiffest = max(section.bending_stiffness for section in wire.sections)
         stiffness = FIRM * stiffest / (radius**3 * gap)
     return Firmness(float(stiffness), float(gap))
+
+
+def divide_bed(firm: Firmness, edge: float, bulge: float, scale: float, edges: int) -> Between:
+    """As ``divide``, at a wall that gives way: points between the nodes press as the nodes do.
+
+    They share what wall the edges have, so that it is not pressed twice; nor do they need a margin,
+    as a chord that dips into such a wall presses it in.
+    """
+    parts = ceil(edge * sqrt(0.125 * bulge / (BED * firm.activation_gap)))
+    parts = min(max(parts, 1), FINEST)
+    return Between(
+        parts=parts,
+        stiffness=firm.stiffness,
+        gap=firm.activation_gap / scale,
+        margin=0.0,
+        known=np.full((edges, parts, 4), -np.inf),
+        jet=np.zeros((edges, parts, 10)),
+        clear=np.full((edges, 7), -np.inf),
+    )
 
 
 def divide(firm: Firmness, edge: float, bulge: float, scale: float, edges: int) -> Between:

@@ -15,6 +15,8 @@ from magwire.kernels._jit import kernel, part
 from magwire.kernels.blocks import full, sym_scale
 from magwire.kernels.scatter import add_block, add_diagonal, add_vector
 from magwire.kernels.vectors import combine, norm, row, sub
+from magwire.kernels.wall.foundation import at_edge
+from magwire.kernels.wall.motion import pace
 from magwire.kernels.wall.push import push
 
 
@@ -33,6 +35,18 @@ def clear_edge(between, q, j, reach):
     u, v, w = q[j + 1, 0] - known[3], q[j + 1, 1] - known[4], q[j + 1, 2] - known[5]
     moved = max(x * x + y * y + z * z, u * u + v * v + w * w)
     return room >= 0.0 and moved <= room * room
+
+
+@kernel
+def slowed(movings, room, gap):
+    """How far an edge's nodes may move before the tissue at its points has come ``room`` nearer.
+
+    Also less the gap: see ``clear_edge``.
+    """
+    if len(movings) == 0:
+        return room
+    else:
+        return (room + gap) / movings[0].pace - gap
 
 
 @part
@@ -56,16 +70,17 @@ def press_edge(rod, lumen, wall, state, j, gradient, band, r):
     room = inf
     offset = keep_off(rod, between, j)
     stiffness = between.stiffness * rod.rest[j] / between.parts
+    give, fast = at_edge(wall.bed, j), pace(lumen.moving)
     for k in range(1, between.parts):
         s = k / between.parts
         x = combine(1.0 - s, row(state.q, j), s, row(state.q, j + 1))
         known, jet = between.known[j, k], between.jet[j, k]
-        away = norm(sub(x, (known[0], known[1], known[2])))
+        away = fast * norm(sub(x, (known[0], known[1], known[2])))
         left = known[3] - offset - between.gap - away
         if left >= 0.0:
             room = min(room, left)
             continue
-        d, value, pushed, block = push(lumen, x, stiffness, between.gap, offset, known, jet)
+        d, value, pushed, block = push(lumen, x, stiffness, between.gap, offset, known, jet, give)
         room = min(room, known[3] - offset - between.gap)
         if d < inf:
             nearest = min(nearest, d)
@@ -76,7 +91,7 @@ def press_edge(rod, lumen, wall, state, j, gradient, band, r):
                 add_diagonal(band, r, sym_scale((1.0 - s) * (1.0 - s), block))
                 add_diagonal(band, r + 4, sym_scale(s * s, block))
                 add_block(band, r + 4, r, full(sym_scale(s * (1.0 - s), block)))
-    remember(between, state.q, j, room)
+    remember(between, state.q, j, slowed(lumen.moving, room, between.gap))
     return nearest, energy
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from magwire.scenario.kind import KindTable
 from magwire.scenario.quantity import Length, Quantity
@@ -35,6 +35,7 @@ class ModelSteering(NavigatorTable):
     """A navigator that has a model of the wire; it takes a magnet and a field of its own."""
 
     update_every: Length = preset("0.5 mm")
+    friction: Literal["model", "none"] = "none"
 
     @property
     def interval(self) -> float:

@@ -24,4 +24,6 @@ class NewtonSteering(ModelSteering):
         """The navigator of one run, as yet without a memory."""
         from magwire.navigate.newton import NewtonNavigator
 
-        return NewtonNavigator(simulation.system, plan_every=self.plan_every)
+        return NewtonNavigator(
+            simulation.system, plan_every=self.plan_every, friction=self.friction
+        )

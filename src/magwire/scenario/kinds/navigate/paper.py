@@ -38,4 +38,4 @@ class PaperSteering(ModelSteering):
             tolerance=self.tolerance,
             iterations=self.iterations,
         )
-        return PaperNavigator(simulation.system, optimiser=optimiser)
+        return PaperNavigator(simulation.system, optimiser=optimiser, friction=self.friction)

@@ -45,5 +45,10 @@ class StableSteering(ModelSteering):
             field_tolerance=self.field_tolerance,
             **{name: limit for name, limit in limits.items() if limit is not None},
         )
-        plain = StableNavigator(simulation.system, demands=demands, plan_every=self.plan_every)
+        plain = StableNavigator(
+            simulation.system,
+            demands=demands,
+            plan_every=self.plan_every,
+            friction=self.friction,
+        )
         return persistent(plain, self.attempts)
