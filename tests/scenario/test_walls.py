@@ -1,4 +1,4 @@
-"""The keys of walls that give way and move: what they build, what they refuse, that they read back."""
+"""Keys of walls that give way and move: what they build, what they refuse, that they read back."""
 
 from __future__ import annotations
 

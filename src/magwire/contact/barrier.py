@@ -31,8 +31,8 @@ class Barrier:
         What the wall keeps off (P-12): the wire's ``"surface"``, or, as in the paper, its
         ``"centreline"``.
     foundation
-        Of a wall that gives way: pressure over indentation, as of Winkler's elastic foundation
-        [Pa/m]. A wire presses on the width of its diameter. A rigid wall if None.
+        Pressure over indentation of a wall that gives way, as Winkler's elastic foundation does
+        [Pa/m]. A wire presses on the width of its diameter. The wall is rigid if None.
     """
 
     stiffness: float | Auto = "auto"
