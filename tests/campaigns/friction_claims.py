@@ -1,4 +1,4 @@
-"""The paper's cases with friction, as a table: `python -m campaigns.friction_claims [NAME] [MU]`."""
+"""The paper's cases with friction, as a table: `python -m campaigns.friction_claims NAME MU`."""
 
 from __future__ import annotations
 

@@ -39,17 +39,16 @@ def test_fields_that_are_tried_leave_no_trace() -> None:
     assert np.abs(once.state.contact).max() > 0.0
 
 
-def test_a_view_is_of_contacts_that_hold() -> None:
-    """The tip of a wire that sticks answers less to the field than one that slides freely."""
-    views = []
-    for friction in ("model", "none"):
-        model = Model(SIM.system, SIM.system.path, friction=friction)  # type: ignore[arg-type]
-        assert model.feed_to(0.45 * L)
-        assert model.settle(np.array([0.0, 1e-4, 0.0]))
-        views.append(model.look())
+def test_equilibria_are_with_friction_and_views_without() -> None:
+    """The tip is where friction lets it be, and a view has the stability of a smooth wall there."""
+    models = [rubbing(), Model(SIM.system, SIM.system.path)]
+    assert models[1].feed_to(0.45 * L)
+    apart = np.linalg.norm(models[0].tip()[1] - models[1].tip()[1])
+    assert apart > 5e-7
+    views = [model.look() for model in models]
     assert views[0] is not None
     assert views[1] is not None
-    assert views[0].eigenvalue > views[1].eigenvalue
+    assert views[0].eigenvalue == pytest.approx(views[1].eigenvalue, rel=0.2)
 
 
 def test_a_run_is_steered_by_a_plan_with_friction() -> None:
@@ -57,7 +56,7 @@ def test_a_run_is_steered_by_a_plan_with_friction() -> None:
     run = SIM.run(Feed(0.02, 0.5 * L), navigator, record_every=1e-3)
     assert run.status == "complete"
     assert run.tip_contact_free
-    assert np.nanmax(run.tip_departure) < 0.1e-3
+    assert run.peak_field < 20e-3
 
 
 def test_a_model_has_none_unless_it_is_asked_for() -> None:

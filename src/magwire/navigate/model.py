@@ -18,7 +18,6 @@ from magwire.kernels.arrays import Motion
 from magwire.kernels.linearise import Linear, linearise, respond, tube_force
 from magwire.kernels.newton import newton
 from magwire.kernels.wall.gap import gap_value
-from magwire.kernels.wall.traction import recall
 from magwire.lumen import Lumen
 from magwire.navigate.schedule import Schedule
 
@@ -241,19 +240,19 @@ class Model:
         plant.restore(before)
         return False
 
-    def _at_rest(self) -> Plant:
-        """The plant, with the contacts of friction as they hold the wire where it is."""
-        plant = self._plant
-        for friction in plant.model[2].friction:
-            recall(friction, plant.state, int(plant.state.held[0]))
-        return plant
+    def _let_go(self) -> Plant:
+        """The plant, with no friction in its tangent until the next step reads it off anew."""
+        for friction in self._plant.model[2].friction:
+            friction.load[:, 3] = 0.0
+        return self._plant
 
     def look(self) -> View | None:
         """The equilibrium to first order; None if it is unstable.
 
-        With friction: of contacts that go on to stick or to slide as they do.
+        Without friction in it: a plan that leaves it to friction to hold the wire would not do, and
+        contacts that stick would hide how the wire answers where they give way.
         """
-        plant = self._at_rest()
+        plant = self._let_go()
         value = linearise(plant.model, plant.state, plant.mouth, plant.work, self._linear)
         if not value > 0.0:
             return None
@@ -308,7 +307,7 @@ class Model:
         Shapes (3,) and (3, 3) (P-19, P-21). At an unstable equilibrium the derivative is zero.
         """
         force, slope = self._tube_force()
-        plant = self._at_rest()
+        plant = self._let_go()
         stable = respond(plant.model, plant.state, plant.mouth, plant.work, self._linear)
         moves = self._tip_moves() if stable else np.zeros((3, 3))
         return force, slope @ moves
