@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.contact import Friction
+from magwire.contact import Barrier, Friction
 from magwire.engine.record import Record
 from magwire.evidence.verify.references.sliding import arc_growth, capstan
 from magwire.kernels.arrays import Motion
@@ -84,7 +84,12 @@ class Bend:
 
 
 def rope(
-    bend: Bend, friction: Friction | None, pull: float, edge: float, **options: float | str
+    bend: Bend,
+    friction: Friction | None,
+    pull: float,
+    edge: float,
+    contact: Barrier | None = None,
+    **options: float | str,
 ) -> Session:
     """A steel wire through a bend, pulled at its tip [N] and held by the guide, without anchors."""
     lumen = bend.lumen()
@@ -92,7 +97,7 @@ def rope(
     length = feed + 12e-3
     wire = Wire.uniform(length, THIN, 3e9, 1e9, 2000.0, round(length / edge) + 1)
     load = pull * bend.exit
-    sim = Simulation(wire, lumen, friction=friction, tip_load=load, damping=10.0)
+    sim = Simulation(wire, lumen, contact=contact, friction=friction, tip_load=load, damping=10.0)
     return sim.session(feed=feed, **{"motion": "quasi-static", **options})  # type: ignore[arg-type]
 
 
@@ -190,6 +195,8 @@ def energy(session: Session) -> float:
     held = int(state.held[0])
     moving = 0.5 * float(rod.mass[held + 1 :] @ (state.velocity[held + 1 :, :3] ** 2).sum(axis=1))
     moving += 0.5 * float(rod.inertia[held:] @ state.velocity[held:-1, 3] ** 2)
+    if not wall.friction:
+        return (stored + moving) * system.scales.force * system.scales.length
     kept, rubs = state.contact, wall.friction[0]
     stick = rubs.static * kept[:, FACTOR] * kept[:, LOAD] / rubs.slip
     slips = 0.5 * float(stick @ (kept[:, SLIP : SLIP + 3] ** 2).sum(axis=1))

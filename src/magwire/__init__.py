@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from magwire.batch import Batch as Batch
     from magwire.contact import Barrier as Barrier
     from magwire.contact import Friction as Friction
+    from magwire.contact import WallMotion as WallMotion
     from magwire.devices import Device as Device
     from magwire.devices import load as load_device
     from magwire.devices import names as device_names
@@ -104,6 +105,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "TipNavigator": ("magwire.navigate.tip", "TipNavigator"),
     "UniformField": ("magwire.field", "UniformField"),
     "Vessel": ("magwire.vessel", "Vessel"),
+    "WallMotion": ("magwire.contact", "WallMotion"),
     "Wire": ("magwire.wire", "Wire"),
     "across": ("magwire.wire", "across"),
     "axial": ("magwire.wire", "axial"),
@@ -157,6 +159,7 @@ __all__ = [
     "TipNavigator",
     "UniformField",
     "Vessel",
+    "WallMotion",
     "Wire",
     "__version__",
     "across",

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from magwire.actuate import Actuator, Hardware, Uniform
-from magwire.contact import Barrier, Friction
+from magwire.contact import Barrier, Friction, WallMotion
 from magwire.engine.feed import Feed
 from magwire.engine.hold import Hold
 from magwire.engine.plant import Plant
@@ -60,6 +60,9 @@ class Simulation:
     friction
         The wall's; none if left out. An equilibrium is one without friction: with it, it would
         depend on the way there. A quasi-static run, or session, is such a way.
+    wall_motion
+        How the wall moves with the tissue around it, one displacement or several; it rests if left
+        out. In an equilibrium it is where it is at rest.
     actuator
         What makes a field from the inputs of whoever steers; three components of a uniform flux
         density [T] if left out.
@@ -89,6 +92,7 @@ class Simulation:
         field: FieldSource | ArrayLike | None = None,
         contact: Barrier | None = None,
         friction: Friction | None = None,
+        wall_motion: WallMotion | Sequence[WallMotion] = (),
         actuator: Actuator | None = None,
         damping: float = 0.01,
         gravity: ArrayLike = (0.0, 0.0, 0.0),
@@ -109,6 +113,7 @@ class Simulation:
             release=release,
             background=UniformField() if field is None else as_field("Simulation", field),
             friction=friction,
+            wall_motion=_several(wall_motion),
             actuator=actuator,
         )
         narrowest = lumen.path().narrowest  # a side branch may be too narrow for the wire
@@ -399,6 +404,13 @@ class Simulation:
             return np.zeros((0, 4))
         curve = self.system.path.branches[0].curve
         return curve.at(np.linspace(0.0, curve.length, WAY_POINTS))
+
+
+def _several(wall_motion: WallMotion | Sequence[WallMotion]) -> tuple[WallMotion, ...]:
+    """One displacement or several, each of which the system checks."""
+    if isinstance(wall_motion, WallMotion) or not isinstance(wall_motion, (tuple, list)):
+        return (wall_motion,)  # type: ignore[return-value]
+    return tuple(wall_motion)
 
 
 def _check_navigator(owner: str, navigator: object) -> None:

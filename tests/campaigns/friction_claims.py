@@ -1,4 +1,4 @@
-"""The paper's cases with friction, as a table: `python -m campaigns.friction_claims`."""
+"""The paper's cases with friction, as a table: `python -m campaigns.friction_claims NAME MU`."""
 
 from __future__ import annotations
 
@@ -23,25 +23,31 @@ def peaks(run: Result) -> tuple[float, float, float]:
     return run.max_tip_force / unit, run.max_push_force / unit, near
 
 
-def rows(name: str) -> list[str]:
-    """A line of the table for each coefficient: nobody steers, and the frictionless plan does."""
+def rows(name: str, coefficients: tuple[float, ...] = COEFFICIENTS) -> list[str]:
+    """A line of the table for each coefficient: nobody steers; the frictionless plan does, and one
+    that was made with friction.
+    """
     plan = load(name, COARSE).run()
     lines = []
-    for mu in COEFFICIENTS:
+    for mu in coefficients:
         rubs = (f"contact.friction.static={mu}",)
         alone = load(name, (*COARSE, "navigate.method=none", *rubs)).run()
         steered = replayed(plan, rubs).run()
         tip, push, _ = peaks(alone)
         held, pushed, near = peaks(steered)
         kept = "yes" if steered.converged and held == 0.0 else "no"
+        aware = load(name, (*COARSE, *rubs, "navigate.friction=model")).run()
+        met, needed, off = peaks(aware)
+        holds = "yes" if aware.converged and met == 0.0 else aware.status
         lines.append(
             f"| {name} | {mu:g} | {tip:.1f} | {push:.1f} | {alone.status} | "
-            f"{held:.2g} | {pushed:.2g} | {near:.2f} | {kept} |"
+            f"{held:.2g} | {pushed:.2g} | {near:.2f} | {kept} | "
+            f"{met:.2g} | {needed:.2g} | {off:.2f} | {holds} |"
         )
         print(lines[-1], flush=True)
     return lines
 
 
 if __name__ == "__main__":
-    for chosen in sys.argv[1:] or NAMES:
-        rows(chosen)
+    for chosen in [name for name in sys.argv[1:] if name in NAMES] or NAMES:
+        rows(chosen, tuple(float(one) for one in sys.argv[1:] if one not in NAMES) or COEFFICIENTS)

@@ -1,4 +1,4 @@
-"""The wall's barrier: how near a wire feels it, and how stiffly (P-11, P-12)."""
+"""The wall's barrier: how near a wire feels it, and how stiffly (P-11, P-12, P-39)."""
 
 from __future__ import annotations
 
@@ -30,11 +30,15 @@ class Barrier:
     wall
         What the wall keeps off (P-12): the wire's ``"surface"``, or, as in the paper, its
         ``"centreline"``.
+    foundation
+        Pressure over indentation of a wall that gives way, as Winkler's elastic foundation does
+        [Pa/m]. A wire presses on the width of its diameter. The wall is rigid if None.
     """
 
     stiffness: float | Auto = "auto"
     activation_gap: float | Auto = "auto"
     wall: Literal["surface", "centreline"] = "surface"
+    foundation: float | None = None
 
     def __post_init__(self) -> None:
         if self.stiffness != "auto":
@@ -42,6 +46,8 @@ class Barrier:
         if self.activation_gap != "auto":
             positive("Barrier", "activation_gap", self.activation_gap, "m")
         one_of("Barrier", "wall", self.wall, ("surface", "centreline"))
+        if self.foundation is not None:
+            positive("Barrier", "foundation", self.foundation, "Pa/m")
 
     def keep_off(self, radius: Radius) -> Radius:
         """What the wall keeps from the axis of a wire of some radius, or of several [m] (P-12)."""

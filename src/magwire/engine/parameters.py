@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from magwire.engine.point import Point
 from magwire.engine.system import System
-from magwire.kernels.arrays import Motion, Work
+from magwire.kernels.arrays import Motion, Wall, Work
 from magwire.kernels.assembly import assemble
 from magwire.wire import Mesh, Parameter, mesh_rates
 
@@ -33,7 +33,7 @@ def parameter_loads(
         size = max(float(np.abs(rate).max()) for rate in rates.values())
         moved = {name: getattr(system.rod, name) + rate / size for name, rate in rates.items()}
         load = (point.gradient(work, rod=system.rod._replace(**moved)) - base) * size
-        if system.contact.wall == "surface" and np.any(change.radius):
+        if np.any(change.radius):
             load += _nearer(point, change.radius, work)
         loads.append(load)
     count = len(system.wire.sections)
@@ -58,8 +58,9 @@ def _scaled(system: System, change: Mesh) -> dict[str, Array]:
 def _nearer(point: Point, thicker: Array, work: Work) -> Array:
     """Change of the gradient as the wire's surface moves out, by the rate of each node's radius.
 
-    From differences: the step is so small a part of the smallest clearance that what they leave out
-    is below a millionth.
+    It meets the wall sooner if the wall keeps it off, and presses on more of one that gives way.
+    From differences: the step is so small a part of the smallest clearance that what they leave
+    out is below a millionth.
     """
     system, state = point.system, point.state
     model = (system.rod, point.field, system.new_wall(), system.walls)
@@ -70,9 +71,25 @@ def _nearer(point: Point, thicker: Array, work: Work) -> Array:
         return np.zeros((len(state.q), 4))
     rate = np.append(0.0, thicker) / system.wire.length
     step = PROBE * nearest / float(np.abs(rate).max())
+    out = rate if system.contact.wall == "surface" else 0.0 * rate
     there, here = (
-        point.gradient(work, rod=system.rod._replace(offset=system.rod.offset + sign * step * rate))
+        point.gradient(
+            work,
+            rod=system.rod._replace(offset=system.rod.offset + sign * step * out),
+            wall=_wider(system, sign * step * rate),
+        )
         for sign in (1.0, -1.0)
     )
     load: Array = (there - here) / (2.0 * step)
     return load
+
+
+def _wider(system: System, change: Array) -> Wall:
+    """The wall for a wire whose nodes are thicker: more of its foundation bears."""
+    wall = system.new_wall()
+    if not wall.bed:
+        return wall
+    radius = np.append(system.mesh.radius[0], system.mesh.radius) / system.wire.length
+    nodes = wall.bed[0].nodes * radius / (radius + change)
+    bed = wall.bed[0]._replace(nodes=nodes, edges=0.5 * (nodes[:-1] + nodes[1:]))
+    return wall._replace(bed=(bed,))

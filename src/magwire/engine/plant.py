@@ -19,7 +19,17 @@ from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.field import FieldSource
 from magwire.kernels.arrays import Field, Mouth, State, Tube
-from magwire.kernels.body import Body, Parts, advance, look, make_body, rest, survey
+from magwire.kernels.body import (
+    Body,
+    Parts,
+    advance,
+    look,
+    make_body,
+    moved_by,
+    place_wall,
+    rest,
+    survey,
+)
 from magwire.kernels.glance import GLANCE
 from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.history import copy_state
@@ -29,6 +39,8 @@ from magwire.kernels.sources.steer import steer
 from magwire.kernels.wall.traction import SLID
 
 Array = NDArray[np.float64]
+
+DEEP = 0.8  # part of how deep a wall may be pressed in, from which on that may stop a step
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +73,7 @@ class Survey(NamedTuple):
 
     forces: Array
     clearance: Array
+    indentation: Array
     middle: float
     along: float
     offset: float
@@ -118,8 +131,14 @@ class Plant:
         self._tally = Tally(np.zeros(4), np.array([0.0, 0.0, -1.0]))
         place_held(system.rod, system.guide, self.state, 0, system.wire.nodes, *self.state.guide)
         self.field = sample(system, self.source, self.state)
-        self.model = (system.rod, self.field, self._wall, system.walls)
-        limits, path = system.step_limits(), system.path_arrays
+        moving = system.new_moving()
+        if moving and self._wall.friction:
+            rubbing = self._wall.friction[0]
+            rubbing = rubbing._replace(path=rubbing.path._replace(moving=moving))
+            self._wall = self._wall._replace(friction=(rubbing,))
+        lumen = system.walls._replace(moving=moving)
+        self.model = (system.rod, self.field, self._wall, lumen)
+        limits, path = system.step_limits(), system.path_arrays._replace(moving=moving)
         self._tolerance = limits.tolerance
         self._body = make_body(
             Parts(self.model, path, system.guide, self.state, self.work, limits, self._tally)
@@ -189,9 +208,22 @@ class Plant:
         if status != CONVERGED:
             self.message = (
                 f"The step to {float(drive.feed[done]) * 1e3:.4g} mm of feed did not "
-                f"converge, even when cut into {2**RETRIES} parts: {self.status.remedy}."
+                f"converge, even when cut into {2**RETRIES} parts: {self._remedy()}."
             )
         return done
+
+    def _remedy(self) -> str:
+        """What to try after a step that failed."""
+        for bed in self._wall.bed:
+            length = self.system.wire.length
+            deep, most = float(self.survey().indentation.max()), bed.deepest * length
+            if deep > DEEP * most:
+                return (
+                    f"the wall is pressed in by {1e3 * deep:.3g} mm, and by at most "
+                    f"{1e3 * most:.3g} mm it may be, half of the path's smallest radius; use a "
+                    "stiffer foundation"
+                )
+        return self.status.remedy
 
     def march(
         self, feed: Array, twist: Array, inputs: Array, dt: float, *, inertia: bool
@@ -275,6 +307,7 @@ class Plant:
         """Take up a configuration, at rest."""
         copy_state(state, self.state)
         self.state.velocity[:] = 0.0
+        place_wall(self._body)
         if not self.source.affine:
             self.sample_again()
         self._steer()
@@ -293,6 +326,7 @@ class Plant:
             value[:] = kept
         self.time = snapshot.time
         self.status, self.message = Status.CONVERGED, ""
+        place_wall(self._body)
         self._steer()
 
     @property
@@ -309,8 +343,8 @@ class Plant:
         """What a record holds."""
         nodes, system = len(self.state.q), self.system
         forces, directors, rubs = (np.zeros((nodes, 3)) for _ in range(3))
-        clearance = np.zeros(nodes)
-        found = survey(self._body, forces, clearance, directors, rubs)
+        clearance, sunk = np.zeros(nodes), np.zeros(nodes)
+        found = survey(self._body, forces, clearance, sunk, directors, rubs)
         held, offset, twist, made, (middle, along, stable) = found
         clearance[: held + 1] = np.nan
         length = system.scales.length
@@ -320,6 +354,7 @@ class Plant:
         return Survey(
             forces[1:] * system.scales.force,
             clearance[1:] * length,
+            sunk[1:] * length,
             middle * length if middle < math.inf else math.nan,
             along * length if along < math.inf else math.nan,
             offset * length,
@@ -331,6 +366,14 @@ class Plant:
             torque,
             bool(stable),
         )
+
+    @property
+    def wall_displacement(self) -> Array:
+        """How far the wall has moved at each node, shape (nodes, 3) [m]; 0 on the guide."""
+        moved = np.zeros((len(self.state.q), 3))
+        moved_by(self._body, moved)
+        result: Array = moved[1:] * self.system.scales.length
+        return result
 
     @property
     def totals(self) -> Totals:
@@ -377,6 +420,9 @@ class Plant:
             friction_force=seen.rubs,
             slip=state.contact[1:, SLID] * scales.length,
             friction_work=float(state.spent[0]) * scales.force * scales.length,
+            wall_indentation=seen.indentation,
+            wall_displacement=self.wall_displacement,
+            wall_work=float(state.spent[1]) * scales.force * scales.length,
             guide_twist=self.twist,
             tip_twist=seen.twist,
             material_director=seen.directors,

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.engine.system import System
-from magwire.kernels.arrays import Field, Motion, Mouth, Rod, State, Work
+from magwire.kernels.arrays import Field, Motion, Mouth, Rod, State, Wall, Work
 from magwire.kernels.assembly import FIRST, assemble
 from magwire.kernels.band import WIDTH, factor
 
@@ -54,9 +54,10 @@ class Point:
         rod: Rod | None = None,
         field: Field | None = None,
         mouth: Mouth | None = None,
+        wall: Wall | None = None,
     ) -> Array:
         """Gradient of the energy, scaled, shape (nodes + 1, 4), with its own inputs or others."""
-        return self.energy(work, rod=rod, field=field, mouth=mouth)[1]
+        return self.energy(work, rod=rod, field=field, mouth=mouth, wall=wall)[1]
 
     def energy(
         self,
@@ -65,10 +66,12 @@ class Point:
         rod: Rod | None = None,
         field: Field | None = None,
         mouth: Mouth | None = None,
+        wall: Wall | None = None,
     ) -> tuple[float, Array]:
         """Energy and its gradient, scaled."""
         system = self.system
-        model = (rod or system.rod, field or self.field, system.new_wall(), system.walls)
+        around = system.new_wall() if wall is None else wall
+        model = (rod or system.rod, field or self.field, around, system.walls)
         still = Motion(0.0, work.target)
         where = mouth or self.mouth
         energy, _ = assemble(model, self.state, where, still, work.gradient, work.no_band)

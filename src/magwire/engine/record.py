@@ -129,8 +129,8 @@ class Record:
     contact_force
         Force of the wall on each node, shape (nodes, 3) [N].
     clearance
-        Distance of each node to the wall by the scenario's wall convention, shape (nodes,) [m];
-        NaN for nodes on the guide.
+        Distance of each node to the wall by the scenario's wall convention, as it is: moved, and
+        pressed in; shape (nodes,) [m]; NaN for nodes on the guide.
     clearance_midpoint
         The smallest of the midpoints between nodes [m]; NaN if all are on the guide.
     clearance_along
@@ -143,6 +143,12 @@ class Record:
         How far the surface of each node has slid on the wall so far, shape (nodes,) [m].
     friction_work
         What friction has taken so far [J].
+    wall_indentation
+        How far each node presses the wall in, shape (nodes,) [m]; zero at a rigid wall (P-39).
+    wall_displacement
+        How far the wall has moved at each node, shape (nodes, 3) [m]; zero on the guide (P-40).
+    wall_work
+        What the wall that moves has done to the wire so far [J].
     guide_twist, tip_twist
         Angle by which the guide has turned the wire, and by which the tip is turned, against a
         wire that is not twisted [rad].
@@ -176,6 +182,9 @@ class Record:
     friction_force: Array
     slip: Array
     friction_work: float
+    wall_indentation: Array
+    wall_displacement: Array
+    wall_work: float
     guide_twist: float
     tip_twist: float
     material_director: Array

@@ -11,16 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.actuate import Actuator
-from magwire.contact import Barrier, Friction
+from magwire.contact import Barrier, Friction, WallMotion
+from magwire.contact.motion import STRAIN
 from magwire.engine.record import UNIFORM_INPUTS, Scales, patch_length
-from magwire.engine.wall import Firmness, by_place, divide, fit
+from magwire.engine.wall import DEEPEST, Firmness, by_place, divide, divide_bed, fit
 from magwire.engine.words import system_words
 from magwire.errors import InputError, array, instance, nonnegative, one_of
 from magwire.field import FieldSource, UniformField, as_field
-from magwire.kernels.arrays import JET, Bulges, Guide, Rod, State, Tube, Wall, Work
+from magwire.kernels.arrays import JET, Bed, Bulges, Guide, Rod, State, Tube, Wall, Work
 from magwire.kernels.arrays import Friction as FrictionArrays
 from magwire.kernels.band import HALF_BANDWIDTH, WIDTH
-from magwire.kernels.centreline import LumenArrays
+from magwire.kernels.centreline import LumenArrays, Moving
 from magwire.kernels.newton import Limits
 from magwire.kernels.sources.steer import steer
 from magwire.kernels.sources.table import Sources, new_strength
@@ -63,6 +64,8 @@ class System:
         The outside field that is there without any input.
     friction
         Friction of the wall; none if None.
+    wall_motion
+        How the wall moves; it rests if there is none.
     actuator
         What makes a field from inputs; three components of a uniform flux density [T] if None.
     release
@@ -81,6 +84,7 @@ class System:
     background: FieldSource = NO_FIELD
     friction: Friction | None = None
     actuator: Actuator | None = None
+    wall_motion: tuple[WallMotion, ...] = ()
 
     def __post_init__(self) -> None:
         instance("Simulation", "wire", self.wire, Wire)
@@ -88,6 +92,9 @@ class System:
         instance("Simulation", "contact", self.contact, Barrier)
         instance("Simulation", "friction", self.friction, Friction, or_none=True)
         instance("Simulation", "actuator", self.actuator, Actuator, or_none=True)
+        for one in self.wall_motion:
+            instance("Simulation", "wall_motion", one, WallMotion)
+        self._check_strain()
         object.__setattr__(self, "background", as_field("Simulation", self.background))
         nonnegative("Simulation", "damping", self.damping, "1/s")
         nonnegative("Simulation", "fluid_density", self.fluid_density, "kg/m^3")
@@ -102,6 +109,15 @@ class System:
 
     def __repr__(self) -> str:
         return system_words(self, "System")
+
+    def _check_strain(self) -> None:
+        """Refuse displacements of the tissue that together would fold it."""
+        strain = sum(one.strain for one in self.wall_motion)
+        if strain > STRAIN:
+            raise InputError(
+                f"Input wall_motion of Simulation must strain the tissue by at most {STRAIN:g} in "
+                f"all; received displacements that strain it by {strain:.4g}: longer ramps help."
+            )
 
     def _check_edges(self) -> None:
         """Refuse edges that, as chords, are too long for a bend that the wire can reach.
@@ -306,18 +322,49 @@ class System:
         unit = stiffness / length**4  # of a barrier's stiffness
         edge = float(self.mesh.edge_length.max())
         between = divide(self.firmness, edge, self.bulge, length, self.wire.nodes)
+        bed = self._new_bed()
+        if bed:
+            between = divide_bed(self.firmness, edge, self.bulge, length, self.wire.nodes)
         if between.parts > 1:
             between = between._replace(bulges=self._bulges_by_place)
+        share = between.parts if bed else 1  # of its cell's wall that a node stands for
         none = Tube(0.0, 0.0, 0.0, self.walls, np.full((1, 4), -np.inf), np.zeros((1, JET)))
         return Wall(
-            stiffness=self.firmness.stiffness / unit,
+            stiffness=self.firmness.stiffness / share / unit,
             gap=self.firmness.activation_gap / length,
             known=np.full((self.wire.nodes + 1, 4), -np.inf),
             jet=np.zeros((self.wire.nodes + 1, JET)),
             between=between._replace(stiffness=between.stiffness / unit),
             tube=none if tube is None else tube,
             friction=self._new_friction(),
+            bed=bed,
         )
+
+    def _new_bed(self) -> tuple[()] | tuple[Bed]:
+        """The wall's elastic foundation for the kernels, if there is any."""
+        if self.contact.foundation is None:
+            return ()
+        width = _ghost(2.0 * self.mesh.radius, 2.0 * float(self.mesh.radius[0]))
+        ratio = self.firmness.stiffness / (self.contact.foundation * width)
+        room = self.path.narrowest if self.lumen.branches else self.wire.length
+        edges = 0.5 * (ratio[:-1] + ratio[1:])
+        return (Bed(ratio, edges, DEEPEST * room / self.wire.length),)
+
+    def new_moving(self) -> tuple[()] | tuple[Moving]:
+        """The wall's motion for the kernels, if there is any, at the start."""
+        if not self.wall_motion:
+            return ()
+        length, count = self.wire.length, len(self.wall_motion)
+        moving = Moving(
+            origin=np.asarray(self.guide.entrance)[None].copy(),
+            amplitude=np.array([one.amplitude for one in self.wall_motion]) / length,
+            ramp=np.array([one.ramp for one in self.wall_motion]) / length,
+            rate=np.array([1.0 / one.period for one in self.wall_motion]),
+            now=np.zeros(count),
+            before=np.zeros(count),
+            pace=1.0 + sum(one.strain for one in self.wall_motion),
+        )
+        return (moving,)
 
     def _new_friction(self) -> tuple[()] | tuple[FrictionArrays]:
         """Friction of the wall for the kernels, if there is any, with nothing known of a step."""
@@ -356,8 +403,15 @@ class System:
 
     @cached_property
     def smooth(self) -> System:
-        """The same without friction."""
-        return self if self.friction is None else replace(self, friction=None)
+        """The same without friction, and with the wall at rest."""
+        if self.friction is None and not self.wall_motion:
+            return self
+        return replace(self, friction=None, wall_motion=())
+
+    @cached_property
+    def still(self) -> System:
+        """The same with the wall at rest."""
+        return replace(self, wall_motion=()) if self.wall_motion else self
 
     def new_tube(self, path: Lumen, radius: float) -> Tube:
         """The virtual tube of a radius [m] around the centreline of a path (P-19).
@@ -393,7 +447,8 @@ class System:
             held=np.array([nodes - 1]),
             inputs=self.idle_inputs,
             contact=np.zeros((nodes, CONTACT)),
-            spent=np.zeros(1),
+            spent=np.zeros(2),
+            clock=np.zeros(1),
         )
 
     def new_work(self) -> Work:

@@ -31,8 +31,17 @@ THIN = 0.02
 MARGIN = 4.0
 """Margin of the points between the nodes, in dips of the chords between them: with it the chord
 from a point to a node that touches the wall stays inside, too."""
+UNKNOWN = Bulges(np.zeros(0), np.zeros(1, dtype=np.int64), np.zeros(0))
+"""No bulge is known by place."""
 FINEST = 64
 """Parts of an edge at most; the certificate of a record is what tells beyond that."""
+
+
+BED = 0.1
+"""Dip of the chords between points at a wall that gives way, over the activation gap, at most."""
+DEEPEST = 0.5
+"""Part of the lumen's smallest radius by which a wall may be pressed in: gaps are known a radius
+deep into it."""
 
 
 class Firmness(NamedTuple):
@@ -69,6 +78,26 @@ def fit(contact: Barrier, wire: Wire, path: Lumen) -> Firmness:
     return Firmness(float(stiffness), float(gap))
 
 
+def divide_bed(firm: Firmness, edge: float, bulge: float, scale: float, edges: int) -> Between:
+    """As ``divide``, at a wall that gives way: points between the nodes press as the nodes do.
+
+    They share what wall the edges have, so that it is not pressed twice; nor do they need a margin,
+    as a chord that dips into such a wall presses it in.
+    """
+    parts = ceil(edge * sqrt(0.125 * bulge / (BED * firm.activation_gap)))
+    parts = min(max(parts, 1), FINEST)
+    return Between(
+        parts=parts,
+        stiffness=firm.stiffness,
+        gap=firm.activation_gap / scale,
+        margin=0.0,
+        known=np.full((edges, parts, 4), -np.inf),
+        jet=np.zeros((edges, parts, JET)),
+        clear=np.full((edges, 7), -np.inf),
+        bulges=UNKNOWN,
+    )
+
+
 def divide(firm: Firmness, edge: float, bulge: float, scale: float, edges: int) -> Between:
     """Barrier between the nodes of edges of a length [m] at a wall of some bulge [1/m].
 
@@ -88,7 +117,7 @@ def divide(firm: Firmness, edge: float, bulge: float, scale: float, edges: int) 
         known=np.full((edges, parts, 4), -np.inf),
         jet=np.zeros((edges, parts, JET)),
         clear=np.full((edges, 7), -np.inf),
-        bulges=Bulges(np.zeros(0), np.zeros(1, dtype=np.int64), np.zeros(0)),
+        bulges=UNKNOWN,
     )
 
 

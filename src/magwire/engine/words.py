@@ -31,6 +31,7 @@ def system_words(system: System, name: str) -> str:
         acting.append(f"tip load {show(math.hypot(*system.tip_load), 'force')}")
     if system.friction is not None:
         acting.append(repr(system.friction))
+    acting += [repr(one) for one in system.wall_motion]
     wire = repr(system.wire).replace("\n", "\n  ")
     return "\n".join(
         [

@@ -150,6 +150,18 @@ class Friction(NamedTuple):
     slides: Flag
 
 
+class Bed(NamedTuple):
+    """Elastic foundation of the wall; see ``wall.foundation``.
+
+    nodes [N+1], edges [N]: the barrier's stiffness over the foundation's, at the nodes and at the
+    points between them; deepest: how far the wall may be pressed in.
+    """
+
+    nodes: Array
+    edges: Array
+    deepest: float
+
+
 class Wall(NamedTuple):
     """Barrier stiffness and activation gap, and what is known of the gap near each node.
 
@@ -165,6 +177,7 @@ class Wall(NamedTuple):
     between: Between
     tube: Tube
     friction: tuple[()] | tuple[Friction]
+    bed: tuple[()] | tuple[Bed] = ()
 
 
 class State(NamedTuple):
@@ -174,7 +187,8 @@ class State(NamedTuple):
     [N, 3], length [N], director [N, 3] (reference frame d1), twist [N+1] reference twist. velocity
     [N+1, 4]; guide [2] insertion and twist of the guide; held [1] last node that the guide holds;
     inputs [m] of the actuator; contact [N+1, 10] what friction remembers of each node, its columns
-    named in ``wall.traction``; spent [1] energy that friction took so far.
+    named in ``wall.traction``; spent [2] energy that friction took so far, and work of a wall that
+    moves; clock [1] time, by which such a wall is where it is.
     """
 
     q: Array
@@ -188,6 +202,7 @@ class State(NamedTuple):
     inputs: Array
     contact: Array
     spent: Array
+    clock: Array
 
 
 class Mouth(NamedTuple):

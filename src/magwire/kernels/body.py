@@ -22,6 +22,7 @@ from magwire.kernels.newton import Limits, newton
 from magwire.kernels.observe import observe, off_centreline, read_frames
 from magwire.kernels.sources.steer import field_of
 from magwire.kernels.vectors import row
+from magwire.kernels.wall.motion import displacements, move_wall
 from magwire.kernels.wall.traction import read_friction
 
 
@@ -67,6 +68,21 @@ def advance(body, feed, twist, inputs, time_step, damping, inertia):
 
 
 @entry
+def place_wall(body):
+    """Put the wall where it is at the state's time, if it moves."""
+    p = body.parts
+    time = p.state.clock[0]
+    move_wall(p.model[3].moving, p.model[2], time, time)
+
+
+@entry
+def moved_by(body, moved):
+    """Fill ``moved`` [N+1, 3] with the displacement of the wall at the nodes; zero if it rests."""
+    p = body.parts
+    displacements(p.model[3].moving, p.state, moved)
+
+
+@entry
 def rest(body, limits):
     """Newton's method to the equilibrium nearby; see ``newton``."""
     p = body.parts
@@ -75,7 +91,7 @@ def rest(body, limits):
 
 
 @entry
-def survey(body, forces, clearance, directors, rubs):
+def survey(body, forces, clearance, sunk, directors, rubs):
     """Put what the guide holds in its place and read off what a record holds; see ``observe``.
 
     Returns the last held node, the tip's distance from the centreline, its twist and the actuator's
@@ -85,7 +101,7 @@ def survey(body, forces, clearance, directors, rubs):
     mouth = mouth_of(p.model[0], p.guide, p.state)
     read_friction(p.model[2].friction, p.model[0], p.state, mouth.held, rubs)
     place_held(p.model[0], p.guide, p.state, 0, mouth.held, p.state.guide[0], p.state.guide[1])
-    found = observe(p.model, p.state, mouth, p.work, forces, clearance)
+    found = observe(p.model, p.state, mouth, p.work, forces, clearance, sunk)
     tip = row(p.state.q, p.state.q.shape[0] - 1)
     twist = read_frames(p.state, directors)
     field = p.model[1]

@@ -26,6 +26,31 @@ LOOKS = 4  # at the way of a seed to its maximum
 FLAT = 0.1  # smallest |F'| in its voxel at which a seed is settled at the voxel's centre
 
 
+class Moving(NamedTuple):
+    """Displacements of the tissue around a lumen; see ``wall.motion``.
+
+    Attributes
+    ----------
+    origin
+        Where there is none, the entrance, shape [1, 3].
+    amplitude, ramp, rate
+        Of each: largest displacement, shape [m, 3]; distance over which it rises, and one over its
+        period, shape [m].
+    now, before
+        Part of each that there is now, and that there was before the step, shape [m].
+    pace
+        How much farther than a point of space the tissue may move that is there, at most.
+    """
+
+    origin: NDArray
+    amplitude: NDArray
+    ramp: NDArray
+    rate: NDArray
+    now: NDArray
+    before: NDArray
+    pace: float
+
+
 class LumenArrays(NamedTuple):
     """A lumen as the kernels take it.
 
@@ -50,6 +75,8 @@ class LumenArrays(NamedTuple):
         Number of voxels; zero in open space.
     margin
         Smallest radius; no voxel that is nearer to a wall from outside is without seeds.
+    moving
+        How it moves, if it does.
     """
 
     coefficients: NDArray
@@ -65,6 +92,7 @@ class LumenArrays(NamedTuple):
     ny: int
     nz: int
     margin: float
+    moving: tuple[()] | tuple[Moving] = ()
 
 
 @kernel

@@ -9,6 +9,8 @@ from magwire.kernels.assembly import clear
 from magwire.kernels.hinge import material_frame
 from magwire.kernels.vectors import combine, dot, norm, row, scale, sub
 from magwire.kernels.wall.contact import add_walls
+from magwire.kernels.wall.foundation import at_node, pressed_in
+from magwire.kernels.wall.motion import pace
 from magwire.kernels.wall.push import query
 
 GLANCE = 10
@@ -68,14 +70,15 @@ def largest_over(rod, gradient, held, patch):
 @part
 def least_clearance(rod, lumen, wall, state, held):
     """Smallest clearance of the free nodes; what is known to be farther is not asked for."""
-    least = inf
+    least, fast = inf, pace(lumen.moving)
     for i in range(state.q.shape[0] - 1, held, -1):
         x = row(state.q, i)
         known = wall.known[i]
         away = sub(x, (known[0], known[1], known[2]))
-        if known[3] - norm(away) - rod.offset[i] < least:
+        if known[3] - fast * norm(away) - rod.offset[i] < least:
             query(lumen, x, known, wall.jet[i])
-            least = min(least, wall.jet[i, 0] - rod.offset[i])
+            d = wall.jet[i, 0] - rod.offset[i]
+            least = min(least, d + pressed_in(at_node(wall.bed, i), d, wall.gap))
     return least
 
 

@@ -35,4 +35,6 @@ def copy_state(source, target):
     for i in range(source.contact.shape[0]):
         for c in range(source.contact.shape[1]):
             target.contact[i, c] = source.contact[i, c]
-    target.spent[0] = source.spent[0]
+    for c in range(2):
+        target.spent[c] = source.spent[c]
+    target.clock[0] = source.clock[0]

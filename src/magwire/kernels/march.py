@@ -25,9 +25,11 @@ from magwire.kernels.vectors import dot, row
 from magwire.kernels.wall.between import add_between, press_edge
 from magwire.kernels.wall.collision import allowed_part
 from magwire.kernels.wall.contact import add_walls
+from magwire.kernels.wall.motion import carry, less_carried, move_wall
 from magwire.kernels.wall.push import press
 from magwire.kernels.wall.slide import slide
 from magwire.kernels.wall.traction import begin, keep_contacts, reload
+from magwire.kernels.wall.work import count_half
 
 COARSE = 6  # a step may be cut in half this many times before its parts follow the wall
 RETRIES = 10  # and this many times in all
@@ -75,12 +77,18 @@ def tip_force(model, state, held, work):
 
 
 @part
-def predict(rod, lumen, wall, state, velocity, held, dt, work, slides):
-    """Move the free unknowns on at their velocities, as far as no point comes into the wall."""
+def predict(rod, lumen, wall, state, before, held, dt, work, slides, inertia):
+    """Move the free unknowns on at their velocities, as far as no point comes into the wall.
+
+    ``state`` begins as ``before``, or where a wall that moves has carried it.
+    """
+    velocity = before.velocity
     for i in range(held - 1, state.q.shape[0]):
         for c in range(4):
             free = i > held or (i == held and c == 3)
             work.step[4 * (i - held + 1) + c] = dt * velocity[i, c] if free else 0.0
+    if inertia:
+        less_carried(lumen.moving, before, state, held, work.step)
     share = allowed_part(rod, lumen, wall, state.q, work.step, held, 0.0)
     if slides and share < 1.0:
         slide(rod, lumen, wall, state.q, work.step, held, 1.0, work.way)
@@ -139,7 +147,8 @@ def time_step(model, guide, state, work, limits, slides, start, end, dt, drive):
     for i in range(held, nodes):
         for c in range(4):
             work.target[i, c] = state.q[i, c] + dt / drag * state.velocity[i, c]
-    predict(rod, lumen, wall, work.ahead, state.velocity, held, dt, work, slides)
+    carry(lumen.moving, work.ahead, held)
+    predict(rod, lumen, wall, work.ahead, state, held, dt, work, slides, drive.inertia)
     place_held(rod, guide, work.ahead, held - 1, held, end[0], end[1])
     update_frames(state, work.ahead, held)
     motion = Motion(drag / (dt * dt) if drive.inertia else 0.0, work.target)
@@ -151,13 +160,27 @@ def time_step(model, guide, state, work, limits, slides, start, end, dt, drive):
 
 
 @kernel
+def carried_state(movings, state, work):
+    """A state, or a copy of it that the wall has carried along in the step if it moves."""
+    if len(movings) == 0:
+        return state
+    else:
+        held = state.held[0]
+        copy_configuration(state, work.trial, held)
+        carry(movings, work.trial, held)
+        return work.trial
+
+
+@kernel
 def solve_step(frictions, model, state, mouth, motion, work, limits, dt):
     """Newton's method, with or without friction: one is compiled, see ``wall.traction``."""
     if len(frictions) == 0:
         return newton(model, work.ahead, mouth, motion, work, limits)
     else:
         rod, _, wall, lumen = model
-        begin(rod, lumen, wall, state, mouth.held, dt, work)
+        begin(
+            rod, lumen, wall, state, carried_state(lumen.moving, state, work), mouth.held, dt, work
+        )
         return rub(model, state, mouth, motion, work, limits)
 
 
@@ -177,10 +200,18 @@ def rub(model, state, mouth, motion, work, limits):
 
 
 @part
-def accept(rod, frictions, state, work, dt, end):
-    """Take over the step in ``work.ahead``: configuration, velocities, and where the guide is."""
+def accept(model, state, work, dt, end, clock):
+    """Take over the step in ``work.ahead``: configuration, velocities, and where the guide is.
+
+    clock: the time at its end.
+    """
+    rod, _, wall, lumen = model
     held = state.held[0]
-    keep_contacts(frictions, rod, state, work.ahead)
+    begun = carried_state(lumen.moving, state, work)
+    count_half(lumen.moving, model, state, begun, work)
+    keep_contacts(wall.friction, rod, state, work.ahead)
+    count_half(lumen.moving, model, state, work.ahead, work)
+    state.clock[0] = clock
     for i in range(held, state.q.shape[0]):
         for c in range(4):
             state.velocity[i, c] = (work.ahead.q[i, c] - state.q[i, c]) / dt
@@ -232,6 +263,7 @@ def march(model, guide, state, work, limits, drive, tally):
         entry = state.held[0]
         first = state.guide[0], state.guide[1]
         last = drive.feed[k], drive.twist[k]
+        clock = state.clock[0]
         begun = cuts_by_feed(model[0], last[0] - first[0])
         halvings = begun
         slides = False
@@ -241,6 +273,8 @@ def march(model, guide, state, work, limits, drive, tally):
             share = 0.5**halvings
             end = blend(first, last, done + share)
             dt = share * drive.time_step
+            then = clock + (done + share) * drive.time_step
+            move_wall(model[3].moving, model[2], state.clock[0], then)
             if differ(state.inputs, drive.inputs[k]):
                 for c in range(state.inputs.shape[0]):
                     rest = 1.0 - (done + share)
@@ -259,6 +293,7 @@ def march(model, guide, state, work, limits, drive, tally):
                     copy_state(work.before, state)
                     state.held[0] = entry
                     steer(field.sources, state.inputs, field.strength)
+                    move_wall(model[3].moving, model[2], clock, clock)
                     return k, status
                 if slides or halvings < begun + COARSE:
                     halvings += 1
@@ -266,7 +301,7 @@ def march(model, guide, state, work, limits, drive, tally):
                     slides = True
                 tally.counts[3] += 1
                 continue
-            accept(model[0], model[2].friction, state, work, dt, end)
+            accept(model, state, work, dt, end, then)
             touches = touches or nearest < inf
             done += share
             if slides and halvings > begun and done % (2.0 * share) == 0.0:

@@ -13,7 +13,9 @@ from magwire.kernels.centreline import PIECES, SPACING, spline
 from magwire.kernels.hinge import material_frame
 from magwire.kernels.vectors import combine, dot, norm, row, scale, sub
 from magwire.kernels.wall.contact import add_walls
+from magwire.kernels.wall.foundation import at_edge, at_node, pressed_in
 from magwire.kernels.wall.gap import gap_jet, gap_value
+from magwire.kernels.wall.motion import at_rest, pace
 
 FINEST = 1.0 / 24.0  # part of an edge that the search for its nearest point passes over, at most
 
@@ -31,8 +33,9 @@ def hop(lumen, x, t, offset, least):
         return inf, 0.0
     d = g - offset
     above = d - least
-    if above <= 0.0 or safe != g:
-        return d, max(above, 0.0)
+    fast = pace(lumen.moving)
+    if above <= 0.0 or safe != g or fast > 1.0:
+        return d, max(above, 0.0) / fast
     rho = max(lumen.margin - g, 0.0)
     slope = rho * dot(n, t)
     return d, slope + sqrt(slope * slope + above * (above + 2.0 * rho))
@@ -48,6 +51,60 @@ def nearest_on_edge(lumen, x, y, length, offset, least):
         least = min(least, d)
         s += max(FINEST, ahead / length)
     return least
+
+
+@kernel
+def clearance_at(lumen, x, offset):
+    """Distance of a point of the wire from the wall where that is at rest."""
+    g, _, _, _ = gap_value(lumen, x[0], x[1], x[2])
+    return g - offset
+
+
+@part
+def nearest_in_bed(rod, lumen, wall, state, j, least):
+    """Smallest clearance along edge j from a wall that gives way, or ``least`` if that is smaller.
+
+    Between the points at which it is pressed the wall's indentation is linear along the edge.
+    """
+    between, fast = wall.between, pace(lumen.moving)
+    x, y = row(state.q, j), row(state.q, j + 1)
+    offset = max(rod.offset[j], rod.offset[j + 1])
+    part = state.length[j] / between.parts
+    sunk = 0.0
+    for k in range(between.parts + 1):
+        s = k / between.parts
+        d = clearance_at(lumen, combine(1.0 - s, x, s, y), offset)
+        give = at_edge(wall.bed, j)
+        if k == 0:
+            give, d = at_node(wall.bed, j), d + offset - rod.offset[j]
+        elif k == between.parts:
+            give, d = at_node(wall.bed, j + 1), d + offset - rod.offset[j + 1]
+        after = pressed_in(give, d, wall.gap)
+        if k > 0:
+            steep = fast + abs(after - sunk) / part
+            here = 0.0
+            while here < 1.0:
+                share = (k - 1 + here) / between.parts
+                point = combine(1.0 - share, x, share, y)
+                bed = (1.0 - here) * sunk + here * after
+                thick = offset if 0.0 < share < 1.0 else rod.offset[j]
+                d = clearance_at(lumen, point, thick) + bed
+                ahead = (d - least) / steep
+                least = min(least, d)
+                here += max(FINEST * between.parts, ahead / part)
+        sunk = after
+    return least
+
+
+@kernel
+def nearest_along(beds, rod, lumen, wall, state, j, least):
+    """Smallest clearance along edge j, or ``least`` if that is smaller."""
+    if len(beds) == 0:
+        x, y = row(state.q, j), row(state.q, j + 1)
+        offset = max(rod.offset[j], rod.offset[j + 1])
+        return nearest_on_edge(lumen, x, y, state.length[j], offset, least)
+    else:
+        return nearest_in_bed(rod, lumen, wall, state, j, least)
 
 
 @kernel
@@ -76,6 +133,7 @@ def off_centreline(path, x):
     _, s, branch, _ = gap_value(path, x[0], x[1], x[2])
     if branch < 0:
         return nan
+    x = at_rest(path.moving, x[0], x[1], x[2])
     only = path.branches[0]
     inside = min(max(s, 0.0), only[SPACING] * only[PIECES])
     piece = min(int(inside / only[SPACING]), int(only[PIECES]) - 1)
@@ -86,11 +144,12 @@ def off_centreline(path, x):
 
 
 @kernel
-def observe(model, state, mouth, work, forces, clearance):
+def observe(model, state, mouth, work, forces, clearance, sunk):
     """Read off a state what a record holds (P-8, P-13, P-16).
 
-    Fills the force of the wall on every node, ``forces`` [N+1, 3], and the clearance of every
-    free node, ``clearance`` [N+1]. Leaves the gradient of the energy, without inertia, in
+    Fills the force of the wall on every node, ``forces`` [N+1, 3], the clearance of every free
+    node from the wall as it is, ``clearance`` [N+1], and how far that is pressed in there, ``sunk``
+    [N+1]. Leaves the gradient of the energy, without inertia, in
     ``work.gradient``: of what is held, too (P-38).
 
     Returns
@@ -112,22 +171,23 @@ def observe(model, state, mouth, work, forces, clearance):
             forces[i, c] = -work.gradient[i, c]
     middle = inf
     between = inf
+    for i in range(nodes):
+        sunk[i] = 0.0
+    for i in range(held + 1, nodes):
+        clearance[i] = clearance_at(lumen, row(state.q, i), rod.offset[i])
+        sunk[i] = pressed_in(at_node(wall.bed, i), clearance[i], wall.gap)
+        clearance[i] += sunk[i]
     for i in range(held, nodes):
         x = row(state.q, i)
         if i > held:
-            g, _, _, _ = gap_value(lumen, x[0], x[1], x[2])
-            clearance[i] = g - rod.offset[i]
             between = min(between, clearance[i])
         if i < nodes - 1:
             y = row(state.q, i + 1)
             offset = max(rod.offset[i], rod.offset[i + 1])
-            x = combine(0.5, x, 0.5, y)
-            g, _, _, _ = gap_value(lumen, x[0], x[1], x[2])
-            middle = min(middle, g - offset)
+            d = clearance_at(lumen, combine(0.5, x, 0.5, y), offset)
+            middle = min(middle, d + pressed_in(at_edge(wall.bed, i), d, wall.gap))
     for j in range(held, nodes - 1):
-        x, y = row(state.q, j), row(state.q, j + 1)
-        offset = max(rod.offset[j], rod.offset[j + 1])
-        between = nearest_on_edge(lumen, x, y, state.length[j], offset, between)
+        between = nearest_along(wall.bed, rod, lumen, wall, state, j, between)
     if held == nodes - 1:
         return middle, between, True
     assemble(model, state, mouth, Motion(0.0, work.target), work.gradient, work.band)

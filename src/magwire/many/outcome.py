@@ -52,6 +52,12 @@ QUANTITIES: dict[str, Quantity] = {
         lambda r: r.largest_friction,
     ),
     "friction_work": Quantity("J", "what friction took", lambda r: r.work_of_friction),
+    "largest_indentation": Quantity(
+        "m", "deepest that the wall is pressed in", lambda r: r.largest_indentation
+    ),
+    "wall_work": Quantity(
+        "J", "what a wall that moves has done to the wire", lambda r: r.work_of_wall
+    ),
     "largest_twist_lag": Quantity(
         "rad", "largest difference of the twists of guide and tip", lambda r: r.largest_lag
     ),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,7 @@ from magwire.engine.command import Drive
 from magwire.engine.plant import Plant, Snapshot
 from magwire.engine.status import Status
 from magwire.engine.system import System
-from magwire.errors import InputError
+from magwire.errors import InputError, one_of
 from magwire.kernels.arrays import Motion
 from magwire.kernels.linearise import Linear, linearise, respond, tube_force
 from magwire.kernels.newton import newton
@@ -21,6 +22,8 @@ from magwire.lumen import Lumen
 from magwire.navigate.schedule import Schedule
 
 Array = NDArray[np.float64]
+InModel = Literal["model", "none"]
+"""Whether a navigator's model has the wall's friction."""
 
 SAME = 1e-9  # feeds that differ by less are the same [m]
 MAGNETS = 20.0  # see Model.reach
@@ -76,6 +79,9 @@ class Model:
     tube_radius
         Radius of the virtual tube, which holds the tip on the centreline [m] (P-19); there is none
         if left out.
+    friction
+        Whether the model has the system's friction: ``"model"``, or ``"none"``. With it, the way
+        that the wire has come is part of what is remembered.
 
     Attributes
     ----------
@@ -91,7 +97,13 @@ class Model:
         If the wire has no magnetisation, so that no field moves it.
     """
 
-    def __init__(self, system: System, path: Lumen, tube_radius: float | None = None) -> None:
+    def __init__(
+        self,
+        system: System,
+        path: Lumen,
+        tube_radius: float | None = None,
+        friction: InModel = "none",
+    ) -> None:
         if not system.scales.flux_density > 0.0:
             raise InputError("Input wire of a navigator must be magnetised; received none.")
         if system.actuator is not None:
@@ -110,7 +122,11 @@ class Model:
         self.reach = min(system.wire.length, MAGNETS * magnets)
         self.solves = 0
         tube = None if tube_radius is None else system.new_tube(path, tube_radius)
-        self._plant = Plant(system.smooth, tube=tube)
+        one_of("navigator", "friction", friction, get_args(InModel))
+        believed = system.still if friction == "model" else system.smooth
+        self._plant = Plant(believed, tube=tube)
+        self._rubs = believed.rubs
+        self._came: Snapshot | None = None  # where the wire rested before its field was changed
         self._limits = system.step_limits()
         self._tube = path.arrays(system.wire.length)
         rows = len(self._plant.work.step)
@@ -151,6 +167,7 @@ class Model:
         steps = max(1, int(np.ceil(abs(feed - self.feed) / (0.5 * edge) - 1e-9)))
         course = np.linspace(self.feed, feed, steps + 1)[1:]
         still = np.tile(self.flux, (steps, 1))
+        self._came = None
         return self._drive(Drive(course, np.zeros(steps), still, 1.0, inertia=False))
 
     def _drive(self, drive: Drive) -> bool:
@@ -174,6 +191,7 @@ class Model:
         feeds = np.linspace(first, last, steps + 1)[1:]
         inputs = schedule.at(feeds)
         self._plant.state.velocity[:] = 0.0
+        self._came = None
         for step in range(0, steps, GLANCE):
             part = slice(step, step + GLANCE)
             twist = np.zeros(len(feeds[part]))
@@ -195,6 +213,8 @@ class Model:
 
     def settle(self, flux: Array) -> bool:
         """Find the equilibrium in another field; if there is none, stay as before."""
+        if self._rubs:
+            return self._settle_rubbing(np.asarray(flux, dtype=np.float64))
         before, plant = self.remember(), self._plant
         self.flux = np.asarray(flux, dtype=np.float64)
         still = Motion(0.0, plant.work.target)
@@ -205,9 +225,34 @@ class Model:
             return False
         return True
 
+    def _settle_rubbing(self, flux: Array) -> bool:
+        """Change the field in one step from where the wire came to this feed, or was taken to.
+
+        Of several fields that are tried there only the last one is what the wire goes through.
+        """
+        before, plant = self.remember(), self._plant
+        if self._came is None:
+            self._came = before
+        plant.restore(self._came)
+        drive = Drive(np.array([plant.feed]), np.zeros(1), flux[None], 1.0, inertia=False)
+        if self._drive(drive):
+            return True
+        plant.restore(before)
+        return False
+
+    def _let_go(self) -> Plant:
+        """The plant, with no friction in its tangent until the next step reads it off anew."""
+        for friction in self._plant.model[2].friction:
+            friction.load[:, 3] = 0.0
+        return self._plant
+
     def look(self) -> View | None:
-        """The equilibrium to first order; None if it is unstable."""
-        plant = self._plant
+        """The equilibrium to first order; None if it is unstable.
+
+        Without friction in it: a plan that leaves it to friction to hold the wire would not do, and
+        contacts that stick would hide how the wire answers where they give way.
+        """
+        plant = self._let_go()
         value = linearise(plant.model, plant.state, plant.mouth, plant.work, self._linear)
         if not value > 0.0:
             return None
@@ -262,7 +307,7 @@ class Model:
         Shapes (3,) and (3, 3) (P-19, P-21). At an unstable equilibrium the derivative is zero.
         """
         force, slope = self._tube_force()
-        plant = self._plant
+        plant = self._let_go()
         stable = respond(plant.model, plant.state, plant.mouth, plant.work, self._linear)
         moves = self._tip_moves() if stable else np.zeros((3, 3))
         return force, slope @ moves
@@ -286,6 +331,7 @@ class Model:
 
     def return_to(self, snapshot: Snapshot) -> None:
         """Come back to what was remembered."""
+        self._came = None
         self._plant.restore(snapshot)
 
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from magwire.engine.system import System
 from magwire.errors import positive
 from magwire.lumen import Lumen
+from magwire.navigate.model import InModel
 from magwire.navigate.navigator import NavigationError, Observation
 from magwire.navigate.schedule import Schedule
 from magwire.navigate.tube import RANK, TubeNavigator
@@ -35,6 +36,8 @@ class NewtonNavigator(TubeNavigator):
         out.
     plan_every
         Feed between two planned fields [m]; half a percent of the wire if left out.
+    friction
+        ``"model"``: the plan is made with the system's friction; ``"none"``: without.
 
     Attributes
     ----------
@@ -48,9 +51,14 @@ class NewtonNavigator(TubeNavigator):
     """
 
     def __init__(
-        self, system: System, *, path: Lumen | None = None, plan_every: float | None = None
+        self,
+        system: System,
+        *,
+        path: Lumen | None = None,
+        plan_every: float | None = None,
+        friction: InModel = "none",
     ) -> None:
-        super().__init__(system, path)
+        super().__init__(system, path, friction)
         length = 5e-3 * system.wire.length if plan_every is None else plan_every
         self.plan_every = positive("NewtonNavigator", "plan_every", length, "m")
 

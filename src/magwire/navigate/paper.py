@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from magwire.engine.system import System
 from magwire.errors import positive, whole
 from magwire.lumen import Lumen
+from magwire.navigate.model import InModel
 from magwire.navigate.navigator import NavigationError, Observation
 from magwire.navigate.schedule import Schedule
 from magwire.navigate.tube import RANK, TubeNavigator
@@ -64,6 +65,8 @@ class PaperNavigator(TubeNavigator):
         out.
     optimiser
         Its numbers.
+    friction
+        ``"model"``: the plan is made with the system's friction; ``"none"``: without.
 
     Attributes
     ----------
@@ -77,9 +80,14 @@ class PaperNavigator(TubeNavigator):
     """
 
     def __init__(
-        self, system: System, *, path: Lumen | None = None, optimiser: Optimiser | None = None
+        self,
+        system: System,
+        *,
+        path: Lumen | None = None,
+        optimiser: Optimiser | None = None,
+        friction: InModel = "none",
     ) -> None:
-        super().__init__(system, path)
+        super().__init__(system, path, friction)
         self.optimiser = Optimiser() if optimiser is None else optimiser
 
     def plan(self, observation: Observation, until: float) -> Schedule:

@@ -15,7 +15,7 @@ from magwire.engine.system import System
 from magwire.errors import InputError, instance, positive
 from magwire.lumen import Lumen
 from magwire.navigate.demands import Demands
-from magwire.navigate.model import Model
+from magwire.navigate.model import InModel, Model
 from magwire.navigate.navigator import NavigationError, Observation
 from magwire.navigate.pilot import Knot, Pilot, norm
 from magwire.navigate.programme import Programme
@@ -45,6 +45,8 @@ class StableNavigator:
         What the schedule must keep to.
     plan_every
         Feed between two planned fields [m]; half a percent of the wire if left out.
+    friction
+        ``"model"``: the plan is made with the system's friction; ``"none"``: without.
 
     Raises
     ------
@@ -59,6 +61,7 @@ class StableNavigator:
         path: Lumen | None = None,
         demands: Demands | None = None,
         plan_every: float | None = None,
+        friction: InModel = "none",
     ) -> None:
         instance("StableNavigator", "system", system, System)
         instance("StableNavigator", "path", path, Lumen, or_none=True)
@@ -71,7 +74,7 @@ class StableNavigator:
             )
         length = 5e-3 * system.wire.length if plan_every is None else plan_every
         self.plan_every = positive("StableNavigator", "plan_every", length, "m")
-        self.model = Model(system, path)
+        self.model = Model(system, path, friction=friction)
         self._length = self.model.reach
         self._keep_to(Demands() if demands is None else demands)
         self._begin(Knot(0.0, self.model.remember(), None), back=False)

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from magwire.engine.system import System
 from magwire.lumen import Lumen
-from magwire.navigate.model import Model
+from magwire.navigate.model import InModel, Model
 
 Array = NDArray[np.float64]
 
@@ -25,6 +25,8 @@ class TubeNavigator:
     path
         The tube that the tip is to follow, of constant radius; that to the lumen's target if left
         out.
+    friction
+        ``"model"``: the plan is made with the system's friction; ``"none"``: without.
 
     Attributes
     ----------
@@ -37,9 +39,9 @@ class TubeNavigator:
         If the wire has no magnetisation.
     """
 
-    def __init__(self, system: System, path: Lumen | None) -> None:
+    def __init__(self, system: System, path: Lumen | None, friction: InModel = "none") -> None:
         tube = system.path if path is None else path
-        self.model = Model(system, tube, TUBE * tube.narrowest)
+        self.model = Model(system, tube, TUBE * tube.narrowest, friction)
 
     def expected_tip(self, feed: float) -> Array | None:
         """Where the tip should be at a feed [m], shape (3,) [m]; None if that is not known."""

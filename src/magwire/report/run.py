@@ -160,12 +160,20 @@ def _wall(result: Result) -> dict[str, str]:
     """How near wire and wall came to each other."""
     first, clearance = result.first_contact, result.smallest_clearance
     length = float(result.dataset.attrs["length_scale"])
-    return {
+    rows = {
         "smallest clearance": "none, no wall" if np.isnan(clearance) else f"{clearance:.3e} m",
         "first contact": "none"
         if first is None
         else f"at a feed of {show(first, 'length')}, push {first / length:.3f}",
     }
+    if result.largest_indentation > 0.0:
+        rows["wall pressed in"] = f"{_short(result.largest_indentation)} at most"
+    moved = np.linalg.norm(result.wall_displacement, axis=-1).max(initial=0.0)
+    if moved > 0.0:
+        rows["wall moved"] = (
+            f"{_short(float(moved))} at most at the wire, and did {result.work_of_wall:.4g} J to it"
+        )
+    return rows
 
 
 def _rubbing(result: Result) -> dict[str, str]:

@@ -96,7 +96,10 @@ VARIABLES: dict[str, Variable] = {
         ("time", "node", "xyz"), "N", "force of the wall on the wire", lambda r, _: r.contact_force
     ),
     "clearance": Variable(
-        ("time", "node"), "m", "distance of the nodes to the wall", lambda r, _: r.clearance
+        ("time", "node"),
+        "m",
+        "distance of the nodes to the wall as it is",
+        lambda r, _: r.clearance,
     ),
     "clearance_midpoint": Variable(
         ("time",),
@@ -130,6 +133,21 @@ VARIABLES: dict[str, Variable] = {
     ),
     "friction_work": Variable(
         ("time",), "J", "what friction has taken so far", lambda r, _: r.friction_work
+    ),
+    "wall_indentation": Variable(
+        ("time", "node"),
+        "m",
+        "how far each node presses the wall in",
+        lambda r, _: r.wall_indentation,
+    ),
+    "wall_displacement": Variable(
+        ("time", "node", "xyz"),
+        "m",
+        "how far the wall has moved at each node",
+        lambda r, _: r.wall_displacement,
+    ),
+    "wall_work": Variable(
+        ("time",), "J", "what the wall that moves has done to the wire", lambda r, _: r.wall_work
     ),
     "guide_twist": Variable(
         ("time",),

@@ -17,8 +17,15 @@ if TYPE_CHECKING:
 
 WANTED = ("position", "contact_force")
 NEVER_KEPT = ("push_force", "guide_torque", "tip_departure")
-NOT_YET = {"friction_force": 0.0, "slip": 0.0, "friction_work": 0.0}
-"""Of versions without friction."""
+NOT_YET = {
+    "friction_force": 0.0,
+    "slip": 0.0,
+    "friction_work": 0.0,
+    "wall_indentation": 0.0,
+    "wall_displacement": 0.0,
+    "wall_work": 0.0,
+}
+"""Of versions without friction, or whose walls were rigid and at rest."""
 LATER = {"guide_twist": np.nan, "tip_twist": np.nan}
 ONLY_MOTION = "dynamic"  # of versions that did not say which
 
@@ -28,7 +35,8 @@ def completed(dataset: xr.Dataset) -> xr.Dataset:
 
     Those along the wire follow from the forces on its nodes; those along the lumen, too, if it is a
     single tube. What the guide did, where the magnet is, and how far a model was off were not kept:
-    NaN. Nor was the motion, there being one kind only. There was no friction.
+    NaN. Nor was the motion, there being one kind only. There was no friction, and
+    walls were rigid and at rest.
     """
     if not all(name in dataset for name in WANTED):
         return dataset

@@ -243,6 +243,16 @@ class Result:
         return float(np.max(self.friction_work, initial=0.0))
 
     @property
+    def largest_indentation(self) -> float:
+        """Deepest that any node pressed the wall in, over all records [m]; 0 at a rigid wall."""
+        return float(np.max(self.wall_indentation, initial=0.0))
+
+    @property
+    def work_of_wall(self) -> float:
+        """What the wall that moves has done to the wire in all [J]; 0 if it rests."""
+        return float(self.wall_work[-1]) if self.wall_work.size else 0.0
+
+    @property
     def largest_lag(self) -> float:
         """Largest difference of the twists of guide and tip, over all records [rad]."""
         return float(np.max(np.abs(self.guide_twist - self.tip_twist), initial=0.0))
@@ -399,6 +409,21 @@ class Result:
     def friction_work(self) -> Array:
         """What friction has taken so far, shape (t,) [J]."""
         return self._array("friction_work")
+
+    @property
+    def wall_indentation(self) -> Array:
+        """How far each node presses the wall in, shape (t, nodes) [m]; see P-39."""
+        return self._array("wall_indentation")
+
+    @property
+    def wall_displacement(self) -> Array:
+        """How far the wall has moved at each node, shape (t, nodes, 3) [m]; see P-40."""
+        return self._array("wall_displacement")
+
+    @property
+    def wall_work(self) -> Array:
+        """What the wall that moves has done to the wire so far, shape (t,) [J]."""
+        return self._array("wall_work")
 
     @property
     def guide_twist(self) -> Array:

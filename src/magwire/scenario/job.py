@@ -57,6 +57,10 @@ class Job:
         faults = [text for name in tables for text in refusals(name, getattr(scenario, name).build)]
         faults += refusals("contact.friction", wall.friction.build)
         faults += refusals("actuator", table.build) if table is not None else ()
+        for name in ("breathing", "pulsation"):
+            motion = getattr(wall, name)
+            if motion is not None:
+                faults += refusals(f"contact.{name}", motion.build)
         if not faults:
             sections = len(scenario.wire.build().sections)
             faults += refusals(
@@ -73,6 +77,7 @@ class Job:
                 actuator=actuator,
                 contact=wall.build(),
                 friction=wall.friction.build(),
+                wall_motion=wall.motion(),
                 damping=scenario.solver.damping,
                 gravity=scenario.environment.gravity,
                 fluid_density=scenario.environment.fluid_density,

@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Literal
 from pydantic import Field
 
 from magwire.scenario.friction import FrictionTable
+from magwire.scenario.motion import WallMotionTable
 from magwire.scenario.quantity import (
     Acceleration,
     DensityOrZero,
     Force,
+    Foundation,
     Length,
     Pressure,
     Rate,
@@ -19,7 +21,7 @@ from magwire.scenario.quantity import (
 from magwire.scenario.table import Table, preset
 
 if TYPE_CHECKING:
-    from magwire.contact import Barrier
+    from magwire.contact import Barrier, WallMotion
 
 
 class ContactTable(Table):
@@ -28,13 +30,25 @@ class ContactTable(Table):
     stiffness: Pressure | Literal["auto"] = "auto"
     activation_gap: Length | Literal["auto"] = "auto"
     wall: Literal["surface", "centreline"] = "surface"
+    foundation: Foundation | None = None
     friction: FrictionTable = Field(default={})  # type: ignore[assignment]
+    breathing: WallMotionTable | None = None
+    pulsation: WallMotionTable | None = None
 
     def build(self) -> Barrier:
         """The contact as a model."""
         from magwire.contact import Barrier
 
-        return Barrier(stiffness=self.stiffness, activation_gap=self.activation_gap, wall=self.wall)
+        return Barrier(
+            stiffness=self.stiffness,
+            activation_gap=self.activation_gap,
+            wall=self.wall,
+            foundation=self.foundation,
+        )
+
+    def motion(self) -> tuple[WallMotion, ...]:
+        """How the wall moves, as models."""
+        return tuple(one.build() for one in (self.breathing, self.pulsation) if one is not None)
 
 
 class SolverTable(Table):

@@ -15,6 +15,8 @@ from magwire.kernels._jit import kernel, part
 from magwire.kernels.blocks import full, sym_scale
 from magwire.kernels.scatter import add_block, add_diagonal, add_vector
 from magwire.kernels.vectors import combine, dot, norm, row, sub
+from magwire.kernels.wall.foundation import at_edge
+from magwire.kernels.wall.motion import pace
 from magwire.kernels.wall.push import push, query
 
 CAREFUL = 2.0  # bulges are sampled: what a chord may lose is taken this many times as much
@@ -35,6 +37,18 @@ def clear_edge(between, q, j, reach):
     u, v, w = q[j + 1, 0] - known[3], q[j + 1, 1] - known[4], q[j + 1, 2] - known[5]
     moved = max(x * x + y * y + z * z, u * u + v * v + w * w)
     return room >= 0.0 and moved <= room * room
+
+
+@kernel
+def slowed(movings, room, gap):
+    """How far an edge's nodes may move before the tissue at its points has come ``room`` nearer.
+
+    Also less the gap: see ``clear_edge``.
+    """
+    if len(movings) == 0:
+        return room
+    else:
+        return (room + gap) / movings[0].pace - gap
 
 
 @part
@@ -79,8 +93,11 @@ def dip(low, high, sagitta):
 def sag(lumen, wall, q, j):
     """By how much the gap may fall below the straight line between the nodes of edge j, at most.
 
-    -1 where that is not known. Asks for the gap at both nodes, so that it is known there.
+    -1 where that is not known, nor at a wall that moves. Asks for the gap at both nodes, so that it
+    is known there.
     """
+    if len(lumen.moving) > 0:
+        return -1.0
     bulge = 0.0
     for i in range(j, j + 2):
         x, known = row(q, i), wall.known[i]
@@ -108,6 +125,7 @@ def press_edge(rod, lumen, wall, state, j, gradient, band, r):
     nearest = inf
     offset = keep_off(rod, between, j)
     stiffness = between.stiffness * rod.rest[j] / between.parts
+    give, fast = at_edge(wall.bed, j), pace(lumen.moving)
     sagitta = sag(lumen, wall, state.q, j)
     low, high = -inf, -inf  # what is left to the points' activation gap at the two ends
     if sagitta >= 0.0:
@@ -127,10 +145,10 @@ def press_edge(rod, lumen, wall, state, j, gradient, band, r):
         s = k / between.parts
         x = combine(1.0 - s, row(state.q, j), s, row(state.q, j + 1))
         known, jet = between.known[j, k], between.jet[j, k]
-        away = norm(sub(x, (known[0], known[1], known[2])))
+        away = fast * norm(sub(x, (known[0], known[1], known[2])))
         left = known[3] - offset - between.gap - away
         if left < 0.0:
-            d, value, pushed, block = push(lumen, x, stiffness, between.gap, offset, known, jet)
+            d, value, pushed, block = push(lumen, x, stiffness, between.gap, offset, known, jet, give)
             left = known[3] - offset - between.gap
             if d < inf:
                 nearest = min(nearest, d)
@@ -146,7 +164,7 @@ def press_edge(rod, lumen, wall, state, j, gradient, band, r):
             first, low = k, left
         else:
             last, high = k, left
-    remember(between, state.q, j, room)
+    remember(between, state.q, j, slowed(lumen.moving, room, between.gap))
     return nearest, energy
 
 

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 from magwire.kernels._jit import kernel
 from magwire.kernels.vectors import combine, norm, row
+from magwire.kernels.wall.foundation import at_node, deepest
 from magwire.kernels.wall.gap import gap_value
+from magwire.kernels.wall.motion import pace
 from magwire.kernels.wall.push import clear_of_wall, query
 
 CAUTION = 0.9  # part of the safe distance that one hop uses
@@ -30,7 +32,7 @@ def free_way(g, safe, offset):
 @kernel
 def travel(lumen, x, dx, offset, known, jet, limit):
     """Largest part of the step dx, at most ``limit``, that a point x near the wall may take."""
-    length = norm(dx)
+    length = pace(lumen.moving) * norm(dx)
     if not (x[0] == known[0] and x[1] == known[1] and x[2] == known[2]):
         query(lumen, x, known, jet)
     start = free_way(jet[0], known[3], offset)
@@ -56,20 +58,21 @@ def allowed_part(rod, lumen, wall, q, step, held, leeway):
     two nodes that stayed inside cannot have gone through the wall of a tree on the way.
     leeway: how far into the wall the way may lead, of a step that is known to end inside.
     """
-    share = 1.0
+    share, fast = 1.0, pace(lumen.moving)
     nodes = q.shape[0]
     lead = 4 * (held - 1)
     for i in range(held + 1, nodes):
         r = 4 * i - lead
         x, dx = row(q, i), (step[r], step[r + 1], step[r + 2])
-        offset = rod.offset[i] - leeway
-        if not clear_of_wall(x, wall.known[i], share * norm(dx) / CAUTION + offset):
+        offset = rod.offset[i] - leeway - deepest(at_node(wall.bed, i))
+        if not clear_of_wall(x, wall.known[i], fast, fast * share * norm(dx) / CAUTION + offset):
             share = travel(lumen, x, dx, offset, wall.known[i], wall.jet[i], share)
     tube = wall.tube
     if tube.stiffness > 0.0 and held < nodes - 1:
         i = nodes - 1
         r = 4 * i - lead
         x, dx = row(q, i), (step[r], step[r + 1], step[r + 2])
-        if not clear_of_wall(x, tube.known[0], share * norm(dx) / CAUTION + tube.offset):
+        reach = fast * share * norm(dx) / CAUTION + tube.offset
+        if not clear_of_wall(x, tube.known[0], fast, reach):
             share = travel(tube.path, x, dx, tube.offset, tube.known[0], tube.jet[0], share)
     return share

@@ -31,6 +31,7 @@ from magwire.kernels.centreline import (
     climb,
 )
 from magwire.kernels.vectors import combine, dot, norm, scale, sub
+from magwire.kernels.wall.motion import at_rest, moved_jet
 from magwire.kernels.wall.rim import mouth, mouth_jet, safe_distance
 
 FLATTEST = 1e-4  # conditioning guard: smallest |F'|, reached at a centre of curvature
@@ -141,8 +142,10 @@ def gap_value(lumen, x, y, z):
     safe
         Distance by which the point may move without crossing the wall: g inside the lumen, also
         where branches blend; less past an open end, where the flared wall is steeper. From
-        free space outside it the point may come to lie in the solid, but not through it.
+        free space outside it the point may come to lie in the solid, but not through it. In a lumen
+        that moves it is the way of the tissue that is at the point; see ``wall.motion.pace``.
     """
+    x, y, z = at_rest(lumen.moving, x, y, z)
     index, offset, safe = first_seed(lumen, x, y, z)
     if index < 0:
         return inf, nan, -1, safe
@@ -235,6 +238,8 @@ def gap_jet(lumen, x, y, z):
     """
     none = (0.0, 0.0, 0.0)
     flat = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    px, py, pz = x, y, z
+    x, y, z = at_rest(lumen.moving, x, y, z)
     index, offset, safe = first_seed(lumen, x, y, z)
     if index < 0:
         return inf, nan, -1, safe, none, flat
@@ -263,6 +268,7 @@ def gap_jet(lumen, x, y, z):
             new_g, new_s, new_side, new_safe = -inf, nan, 0, -inf
     if free_branch >= 0 and g <= -lumen.margin:
         return inf, free_s, free_branch, min(free_safe, lumen.margin), none, flat
+    n, h = moved_jet(lumen.moving, px, py, pz, n, h)
     return g, s, branch, safe, n, h
 
 

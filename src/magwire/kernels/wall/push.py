@@ -7,8 +7,9 @@ from math import inf
 from magwire.kernels._jit import kernel
 from magwire.kernels.blocks import sym_add, sym_outer, sym_scale
 from magwire.kernels.vectors import norm, scale, sub
-from magwire.kernels.wall.barrier import barrier
+from magwire.kernels.wall.foundation import at_node, deepest, response
 from magwire.kernels.wall.gap import gap_jet
+from magwire.kernels.wall.motion import pace
 
 
 @kernel
@@ -22,25 +23,28 @@ def query(lumen, x, known, jet):
 
 
 @kernel
-def clear_of_wall(x, known, reach):
+def clear_of_wall(x, known, fast, reach):
     """Whether a point is known to be farther than ``reach`` from the wall.
 
     ``known`` remembers where the gap was last asked for and how far from there no wall is. It is
-    asked before ``push``, since a call hands over the whole lumen, and most nodes need none.
+    asked before ``push``, since a call hands over the whole lumen, and most nodes need none. fast:
+    the wall's ``pace``, 1 if it does not move.
     """
-    return norm(sub(x, (known[0], known[1], known[2]))) + reach <= known[3]
+    return fast * norm(sub(x, (known[0], known[1], known[2]))) + reach <= known[3]
 
 
 @kernel
-def push(lumen, x, stiffness, gap, offset, known, jet):
-    """Barrier of a point near the wall (P-8, P-11).
+def push(lumen, x, stiffness, gap, offset, known, jet, give):
+    """Barrier of a point near the wall (P-8, P-11), and what gives way behind it (P-39).
+
+    give: as of ``foundation.at_node``.
 
     Returns
     -------
     clearance
-        Of the point; +inf if the wall does not act on it.
+        Of the point, from the wall as it is; +inf if the wall does not act on it.
     energy, gradient, hessian
-        The energy is +inf if the point is in the wall.
+        The energy is +inf if the point is in the wall, as deep as that may give way.
     """
     if not (x[0] == known[0] and x[1] == known[1] and x[2] == known[2]):
         query(lumen, x, known, jet)
@@ -48,9 +52,9 @@ def push(lumen, x, stiffness, gap, offset, known, jet):
     h = (jet[4], jet[5], jet[6], jet[7], jet[8], jet[9])
     if d >= gap:
         return inf, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    if not d > 0.0:
+    if not d > -deepest(give):
         return 0.0, inf, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    value, first, curved = barrier(d, gap)
+    d, value, first, curved = response(give, d, gap)
     block = sym_add(sym_outer(stiffness * curved, n), sym_scale(stiffness * first, h))
     return d, stiffness * value, scale(stiffness * first, n), block
 
@@ -58,16 +62,16 @@ def push(lumen, x, stiffness, gap, offset, known, jet):
 @kernel
 def press(rod, lumen, wall, x, i):
     """Barrier of the wall on node i at x; see ``push``."""
-    if clear_of_wall(x, wall.known[i], wall.gap + rod.offset[i]):
+    if clear_of_wall(x, wall.known[i], pace(lumen.moving), wall.gap + rod.offset[i]):
         return inf, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    stiffness = wall.stiffness * rod.cell[i]
-    return push(lumen, x, stiffness, wall.gap, rod.offset[i], wall.known[i], wall.jet[i])
+    stiffness, give = wall.stiffness * rod.cell[i], at_node(wall.bed, i)
+    return push(lumen, x, stiffness, wall.gap, rod.offset[i], wall.known[i], wall.jet[i], give)
 
 
 @kernel
 def press_tube(rod, tube, x):
     """Barrier of the virtual tube on the tip at x; see ``push`` (P-19)."""
-    if clear_of_wall(x, tube.known[0], tube.gap + tube.offset):
+    if clear_of_wall(x, tube.known[0], pace(tube.path.moving), tube.gap + tube.offset):
         return inf, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     stiffness = tube.stiffness * rod.cell[rod.cell.shape[0] - 1]
-    return push(tube.path, x, stiffness, tube.gap, tube.offset, tube.known[0], tube.jet[0])
+    return push(tube.path, x, stiffness, tube.gap, tube.offset, tube.known[0], tube.jet[0], ())

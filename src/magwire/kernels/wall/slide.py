@@ -11,7 +11,9 @@ from math import inf
 from magwire.kernels._jit import kernel
 from magwire.kernels.vectors import combine, norm, row
 from magwire.kernels.wall.between import clear_edge, keep_off
+from magwire.kernels.wall.foundation import at_edge, at_node, pressed_in
 from magwire.kernels.wall.gap import gap_jet
+from magwire.kernels.wall.motion import pace
 from magwire.kernels.wall.push import clear_of_wall, query
 
 KEPT = 0.5  # part of its clearance that a point keeps
@@ -19,10 +21,15 @@ PASSES = 3  # of pushing a point back: the gap falls by one for each length alon
 
 
 @kernel
-def push_back(lumen, x, dx, offset, known, jet):
-    """A step dx of a point near the wall, changed so that it ends inside."""
+def push_back(lumen, x, dx, offset, known, jet, yielding):
+    """A step dx of a point near the wall, changed so that it ends inside the wall as it is.
+
+    yielding: how the wall gives way at the point, and the barrier's activation gap there.
+    """
     if not (x[0] == known[0] and x[1] == known[1] and x[2] == known[2]):
         query(lumen, x, known, jet)
+    give, gap = yielding
+    offset -= pressed_in(give, jet[0] - offset, gap)
     least = offset + KEPT * min(jet[0] - offset, norm(dx))
     for _ in range(PASSES):
         there = combine(1.0, x, 1.0, dx)
@@ -47,11 +54,13 @@ def slide(rod, lumen, wall, q, step, held, part, way):
     lead = 4 * (held - 1)
     for r in range(4 * (nodes - held + 1)):
         way[r] = part * step[r]
+    fast = pace(lumen.moving)
     for i in range(held + 1, nodes):
         r = 4 * i - lead
         x, dx = row(q, i), (way[r], way[r + 1], way[r + 2])
-        if not clear_of_wall(x, wall.known[i], norm(dx) + rod.offset[i]):
-            bent = push_back(lumen, x, dx, rod.offset[i], wall.known[i], wall.jet[i])
+        if not clear_of_wall(x, wall.known[i], fast, fast * norm(dx) + rod.offset[i]):
+            give = at_node(wall.bed, i), wall.gap
+            bent = push_back(lumen, x, dx, rod.offset[i], wall.known[i], wall.jet[i], give)
             add_move(way, r, 1.0, combine(1.0, bent, -1.0, dx))
     between = wall.between
     if between.parts < 2:
@@ -70,8 +79,9 @@ def slide(rod, lumen, wall, q, step, held, part, way):
                 1.0 - s, (way[r], way[r + 1], way[r + 2]), s, (way[r + 4], way[r + 5], way[r + 6])
             )
             known = between.known[j, k]
-            if not clear_of_wall(here, known, norm(move) + offset):
-                bent = push_back(lumen, here, move, offset, known, between.jet[j, k])
+            if not clear_of_wall(here, known, fast, fast * norm(move) + offset):
+                give = at_edge(wall.bed, j), between.gap
+                bent = push_back(lumen, here, move, offset, known, between.jet[j, k], give)
                 change = combine(1.0, bent, -1.0, move)
                 if j > held:
                     add_move(way, r, 1.0, change)

@@ -129,13 +129,17 @@ def _start_at(friction, state, i):
 
 
 @part
-def begin(rod, lumen, wall, state, held, dt, work):
-    """Begin a step of length dt at a state, with the wall's forces there."""
+def begin(rod, lumen, wall, state, carried, held, dt, work):
+    """Begin a step of length dt at a state, with the wall's forces there.
+
+    carried: the state, or where a wall that moves in the step has carried it: the wire slips
+    against the wall.
+    """
     friction = wall.friction[0]
     friction.rate[0] = 1.0 / dt
-    read_loads(rod, lumen, wall, state, held, work)
+    read_loads(rod, lumen, wall, carried, held, work)
     for i in range(held + 1, state.q.shape[0]):
-        _start_at(friction, state, i)
+        _start_at(friction, carried, i)
         n, size = normal_at(friction, work.gradient, i)
         friction.factor[i] = factor_at(friction, row(state.q, i)) if size > 0.0 else 1.0
         set_load(friction, state, state, i, n, size)
@@ -339,6 +343,17 @@ def keep(rod, friction, state, ahead):
             kept[NORMAL + c] = friction.load[i, c]
         kept[SLIDES] = 1.0 if stiffness * norm(reach) > cone else 0.0
         kept[SLID] += norm(sub(reach, slip)) if stiffness > 0.0 else norm(way)
+
+
+@kernel
+def held_by(frictions, state, i):
+    """Friction of the wall on a node of a state at rest, from its elastic slip."""
+    if len(frictions) == 0:
+        return (0.0, 0.0, 0.0)
+    else:
+        friction, kept = frictions[0], state.contact[i]
+        stiffness = friction.static[i] * kept[FACTOR] * kept[LOAD] / friction.slip
+        return scale(-stiffness, (kept[SLIP], kept[SLIP + 1], kept[SLIP + 2]))
 
 
 @kernel

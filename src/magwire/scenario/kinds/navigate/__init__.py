@@ -40,6 +40,7 @@ class ModelSteering(NavigatorTable):
     """A navigator that has a model of the wire; it takes a magnet and a field of its own."""
 
     update_every: Length = preset("0.5 mm")
+    friction: Literal["model", "none"] = "none"
 
     @property
     def interval(self) -> float:

@@ -26,5 +26,7 @@ class NewtonSteering(ModelSteering):
 
         return in_inputs(
             simulation.system,
-            lambda system: NewtonNavigator(system, plan_every=self.plan_every),
+            lambda system: NewtonNavigator(
+                system, plan_every=self.plan_every, friction=self.friction
+            ),
         )

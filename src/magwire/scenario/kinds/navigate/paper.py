@@ -40,5 +40,5 @@ class PaperSteering(ModelSteering):
         )
         return in_inputs(
             simulation.system,
-            lambda system: PaperNavigator(system, optimiser=optimiser),
+            lambda system: PaperNavigator(system, optimiser=optimiser, friction=self.friction),
         )
