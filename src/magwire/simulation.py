@@ -356,6 +356,7 @@ class Simulation:
             points.append(centre)
             radii.append(radius)
             tags.append(np.full(len(centre), i, dtype=np.int64))
+        sheet = self.system.lumen.sheet
         return RunInfo(
             nodes=self.system.wire.nodes,
             scales=self.system.scales,
@@ -368,6 +369,7 @@ class Simulation:
             scenario=scenario,
             motion=motion,
             inputs=self.system.input_names,
+            **({} if sheet is None else {"surface": (sheet.points, sheet.triangles)}),
         )
 
     def _way(self) -> Array:

@@ -56,7 +56,9 @@ class Work(NamedTuple):
     vessel: Vessel | None
 
 
-def of_file(source: Source, units: str | None, words: Words, options: dict[str, Any]) -> Work:
+def of_file(
+    source: Source, units: str | None, words: Words, options: dict[str, Any], wall: str = "balls"
+) -> Work:
     """What to plan for a vessel's file.
 
     Parameters
@@ -66,6 +68,8 @@ def of_file(source: Source, units: str | None, words: Words, options: dict[str, 
     words
         Texts by name: the wire's ``diameter``, ``modulus``, ``magnetization`` and ``magnet``, and
         the largest ``field``.
+    wall
+        As of ``Vessel.lumen``.
     """
     if words["diameter"] is None:
         raise InputError(
@@ -73,9 +77,10 @@ def of_file(source: Source, units: str | None, words: Words, options: dict[str, 
         )
     _read(words, "diameter", "diameter", "--wire")  # better said before the file is read
     vessel = Vessel.read(source, units, **options)
-    lumen = vessel.lumen()
+    lumen = vessel.lumen(wall=wall)
     demands = _demands(words, Demands())
-    return Work(lumen, _wire(words, lumen), demands, None, vessel.record(), vessel)
+    notes = vessel.record(wall)
+    return Work(lumen, _wire(words, lumen), demands, None, notes, vessel)
 
 
 def of_scenario(scenario: Scenario, words: Words) -> Work:

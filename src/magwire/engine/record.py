@@ -64,6 +64,9 @@ class RunInfo:
         How the wire moves: in time, or from one equilibrium to the next.
     inputs
         Names and units of the actuator's inputs.
+    surface
+        Corners, shape (n, 3) [m], and triangles, shape (m, 3), of a wall that is a surface; none of
+        a wall of balls.
     """
 
     nodes: int
@@ -77,6 +80,10 @@ class RunInfo:
     scenario: str = ""
     motion: Motion = "dynamic"
     inputs: tuple[tuple[str, str], ...] = UNIFORM_INPUTS
+    surface: tuple[Array, NDArray[np.int64]] = (
+        np.zeros((0, 3)),
+        np.zeros((0, 3), dtype=np.int64),
+    )
 
 
 @dataclass(frozen=True)

@@ -289,7 +289,8 @@ class System:
         unit = stiffness / length**4  # of a barrier's stiffness
         edge = float(self.mesh.edge_length.max())
         between = divide(self.firmness, edge, self.bulge, length, self.wire.nodes)
-        none = Tube(0.0, 0.0, 0.0, self.walls, np.full((1, 4), -np.inf), np.zeros((1, 10)))
+        balls = self.walls._replace(sheet=())
+        none = Tube(0.0, 0.0, 0.0, balls, np.full((1, 4), -np.inf), np.zeros((1, 10)))
         return Wall(
             stiffness=self.firmness.stiffness / unit,
             gap=self.firmness.activation_gap / length,

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from magwire.kernels._jit import kernel
 from magwire.kernels.vectors import combine, dot, norm, scale
+from magwire.kernels.wall.sheet import Sheet
 
 # Columns of LumenArrays.branches.
 SPACING, FIRST, PIECES, BEGIN, END, BLEND = 0, 1, 2, 3, 13, 23
@@ -50,6 +51,8 @@ class LumenArrays(NamedTuple):
         Number of voxels; zero in open space.
     margin
         Smallest radius; no voxel that is nearer to a wall from outside is without seeds.
+    sheet
+        The wall of triangles, if that is the wall: then balls only say where points are.
     """
 
     coefficients: NDArray
@@ -65,6 +68,7 @@ class LumenArrays(NamedTuple):
     ny: int
     nz: int
     margin: float
+    sheet: tuple[()] | tuple[Sheet] = ()
 
 
 @kernel

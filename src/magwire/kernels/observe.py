@@ -13,7 +13,7 @@ from magwire.kernels.centreline import PIECES, SPACING, spline
 from magwire.kernels.hinge import material_frame
 from magwire.kernels.vectors import combine, dot, norm, row, scale, sub
 from magwire.kernels.wall.contact import add_walls
-from magwire.kernels.wall.gap import gap_jet, gap_value
+from magwire.kernels.wall.gap import gap_jet, gap_value, slopes
 
 FINEST = 1.0 / 24.0  # part of an edge that the search for its nearest point passes over, at most
 
@@ -24,7 +24,8 @@ def hop(lumen, x, t, offset, least):
 
     The point's ball is part of the lumen: g + rho - |x + s t - c| is what it leaves at s, with the
     distance rho of the point from the ball's centre, which is at least the smallest radius less g.
-    Past an open end there is no such ball: the gap changes by no more than the way.
+    Past an open end, and of a wall of triangles, there is no such ball: the gap changes by no more
+    than the way times its slope.
     """
     g, _, _, safe, n, _ = gap_jet(lumen, x[0], x[1], x[2])
     if g == inf:
@@ -32,7 +33,7 @@ def hop(lumen, x, t, offset, least):
     d = g - offset
     above = d - least
     if above <= 0.0 or safe != g:
-        return d, max(above, 0.0)
+        return d, max(above, 0.0) / slopes(lumen.sheet)[1]
     rho = max(lumen.margin - g, 0.0)
     slope = rho * dot(n, t)
     return d, slope + sqrt(slope * slope + above * (above + 2.0 * rho))

@@ -32,7 +32,9 @@ from magwire.kernels.centreline import (
 )
 from magwire.kernels.vectors import combine, dot, norm, scale, sub
 from magwire.kernels.wall.rim import mouth, mouth_jet, safe_distance
+from magwire.kernels.wall.sheet import STEEPEST, sheet_jet, sheet_value
 
+BALLS_STEEPEST = 10.0  # largest slope past an open end, where the radius changes by 0.95
 FLATTEST = 1e-4  # conditioning guard: smallest |F'|, reached at a centre of curvature
 
 
@@ -128,8 +130,8 @@ def seed_at(lumen, index, offset):
 
 
 @kernel
-def gap_value(lumen, x, y, z):
-    """Gap of a point.
+def balls_value(lumen, x, y, z):
+    """Gap of a point to a wall of balls.
 
     Returns
     -------
@@ -221,13 +223,13 @@ def blend_jets(weight, curvature, n, h, n2, h2):
 
 
 @kernel
-def gap_jet(lumen, x, y, z):
-    """Gap of a point with its gradient and Hessian.
+def balls_jet(lumen, x, y, z):
+    """Gap of a point to a wall of balls with its gradient and Hessian.
 
     Returns
     -------
     g, S, branch, safe
-        As of ``gap_value``.
+        As of ``balls_value``.
     n
         Gradient, 3 numbers; zero where g = +inf.
     h
@@ -266,6 +268,51 @@ def gap_jet(lumen, x, y, z):
     return g, s, branch, safe, n, h
 
 
+# A lumen whose wall is of triangles holds it in a tuple, which is empty where there is none. The
+# length of a tuple is part of its type: kernels for walls of balls are compiled without triangles.
+
+
+@kernel
+def wall_value(sheets, lumen, x, y, z):
+    """See ``gap_value``; ``sheets`` as of ``LumenArrays``."""
+    if len(sheets) == 0:
+        return balls_value(lumen, x, y, z)
+    else:
+        g, safe = sheet_value(sheets[0], x, y, z)
+        return g, nan, -1, safe
+
+
+@kernel
+def wall_jets(sheets, lumen, x, y, z):
+    """See ``gap_jet``; ``sheets`` as of ``LumenArrays``."""
+    if len(sheets) == 0:
+        return balls_jet(lumen, x, y, z)
+    else:
+        g, safe, n, h = sheet_jet(sheets[0], x, y, z)
+        return g, nan, -1, safe, n, h
+
+
+@kernel
+def gap_value(lumen, x, y, z):
+    """Gap of a point; as of ``balls_value``. At a wall of triangles S is nan and branch -1."""
+    return wall_value(lumen.sheet, lumen, x, y, z)
+
+
+@kernel
+def gap_jet(lumen, x, y, z):
+    """Gap of a point with its gradient and Hessian; as of ``balls_jet`` and ``gap_value``."""
+    return wall_jets(lumen.sheet, lumen, x, y, z)
+
+
+@kernel
+def slopes(sheets):
+    """Largest slope of the gap, past an open end and elsewhere."""
+    if len(sheets) == 0:
+        return BALLS_STEEPEST, 1.0
+    else:
+        return STEEPEST * sheets[0].steep, sheets[0].steep
+
+
 @kernel
 def gap_many(lumen, points, out_g, out_s, out_branch):
     """Gap, arc parameter and branch of each point, shapes [n, 3] and three times [n]."""
@@ -282,6 +329,18 @@ def hessian_many(lumen, points, out_g, out_h):
     for i in range(len(points)):
         g, _, _, _, _, h = gap_jet(lumen, points[i, 0], points[i, 1], points[i, 2])
         out_g[i] = g
+        for c in range(6):
+            out_h[i, c] = h[c]
+
+
+@kernel
+def jets_many(lumen, points, out_g, out_n, out_h):
+    """The same with its gradient, shape [n, 3]."""
+    for i in range(len(points)):
+        g, _, _, _, n, h = gap_jet(lumen, points[i, 0], points[i, 1], points[i, 2])
+        out_g[i] = g
+        for c in range(3):
+            out_n[i, c] = n[c]
         for c in range(6):
             out_h[i, c] = h[c]
 
