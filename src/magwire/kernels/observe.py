@@ -27,13 +27,17 @@ def hop(lumen, x, t, offset, least):
     Past an open end, and of a wall of triangles, there is no such ball: the gap changes by no more
     than the way times its slope.
     """
+    steep = slopes(lumen.sheet)[1]
+    if steep > 1.0:
+        g, _, _, _ = gap_value(lumen, x[0], x[1], x[2])
+        return (inf, 0.0) if g == inf else (g - offset, max(g - offset - least, 0.0) / steep)
     g, _, _, safe, n, _ = gap_jet(lumen, x[0], x[1], x[2])
     if g == inf:
         return inf, 0.0
     d = g - offset
     above = d - least
     if above <= 0.0 or safe != g:
-        return d, max(above, 0.0) / slopes(lumen.sheet)[1]
+        return d, max(above, 0.0)
     rho = max(lumen.margin - g, 0.0)
     slope = rho * dot(n, t)
     return d, slope + sqrt(slope * slope + above * (above + 2.0 * rho))

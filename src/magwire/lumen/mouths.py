@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from magwire.kernels.wall.closest import Triangles
 from magwire.kernels.wall.sheet import MOUTH_COLUMNS, MOUTH_NORMAL, MOUTH_POINT, MOUTH_RADIUS
@@ -16,6 +16,7 @@ from magwire.lumen.sheet import Sheet, search_tree
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
+ROUND_OFF = 1.01  # how far a point of an end's wall may be from its axis, over its farthest point
 NEAR, FAR = 2.0, 5.0  # lengths of the straight walls past the plane of an end, over its radius
 
 
@@ -43,6 +44,11 @@ class Mouths(NamedTuple):
         away = points - row[MOUTH_POINT : MOUTH_POINT + 3]
         along = away @ axis
         return along, np.linalg.norm(away - along[:, None] * axis, axis=1)
+
+    def mine(self, end: int, points: Array, before: ArrayLike = 0.0) -> NDArray[np.bool_]:
+        """Whether points of the wall are past an end's plane, or at most ``before`` it [m]."""
+        along, off = self.past(end, points)
+        return (along >= -np.asarray(before)) & (off < ROUND_OFF * self.widest[end])
 
 
 class _Course(NamedTuple):

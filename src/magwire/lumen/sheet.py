@@ -77,7 +77,7 @@ class Sheet:
     def rims(self) -> list[Indices]:
         """Points of each open rim in their order, the first one not repeated."""
         sides = self.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-        edges, where, count = np.unique(
+        _, where, count = np.unique(
             np.sort(sides, axis=1), axis=0, return_inverse=True, return_counts=True
         )
         onward = dict(sides[count[where.reshape(-1)] == 1].tolist())

@@ -52,7 +52,8 @@ class TrianglesText(Notation):
         if not words or words[-1] != "m":
             raise fault(f"must be {EXPECTED}; received points that end in {words[-1:]}")
         return Triangles(
-            _numbers("points", words[:-1], np.float64), _numbers("triangles", triangles.split(), np.int64)
+            _numbers("points", words[:-1], np.float64),
+            _numbers("triangles", triangles.split(), np.int64),
         )
 
     def write(self, value: Triangles) -> dict[str, str]:

@@ -33,7 +33,6 @@ STEEPEST = 4.0
 """Largest slope of the gap where a mouth opens, over that elsewhere: one, and three more."""
 
 
-
 class Sheet(NamedTuple):
     """The wall of a surface as the kernels take it.
 

@@ -75,7 +75,9 @@ class VesselLumen(LumenTable):
                 table,
                 [f"Input lumen.{key} needs lumen.file next to it; remove it." for key in keys],
             )
-        rest = {key: value for key, value in table.items() if key not in (*KEYS, "branches", "surface")}
+        rest = {
+            key: value for key, value in table.items() if key not in (*KEYS, "branches", "surface")
+        }
         rest["shape"] = "vessel"
         found = _read(table, rest, folder)
         return found if found.faults else found._replace(reach=_reach(found.table or {}))
