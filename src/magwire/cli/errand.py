@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from magwire.cli.reading import spot
 from magwire.contact import Barrier
@@ -31,6 +31,7 @@ DENSITY = 2000.0  # plays no part in equilibria [kg/m^3]
 DEFAULTS = {"modulus": "3 MPa", "magnetization": "128 kA/m"}
 
 Words = Mapping[str, str | None]
+WallKind = Literal["balls", "surface"]
 
 
 class Work(NamedTuple):
@@ -57,7 +58,11 @@ class Work(NamedTuple):
 
 
 def of_file(
-    source: Source, units: str | None, words: Words, options: dict[str, Any], wall: str = "balls"
+    source: Source,
+    units: str | None,
+    words: Words,
+    options: dict[str, Any],
+    wall: WallKind = "balls",
 ) -> Work:
     """What to plan for a vessel's file.
 

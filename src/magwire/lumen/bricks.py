@@ -93,16 +93,16 @@ class Level:
         scratch = np.empty((2, count * BRICK**3), dtype=np.int64)
         agree(self.beside, BRICK, HALO, values, far, *scratch)
         surround(*place, self.beside, alone, BRICK, HALO, waiting, values)
-        values = values.reshape(count, padded, padded, padded)
+        cubes = values.reshape(count, padded, padded, padded)
         first, last = HALO - 1, HALO + BRICK + 2
         inner = slice(first, last)
-        laplacian = -6.0 * values[:, inner, inner, inner]
+        laplacian = -6.0 * cubes[:, inner, inner, inner]
         for step in (-1, 1):
             moved = slice(first + step, last + step)
-            laplacian += values[:, moved, inner, inner]
-            laplacian += values[:, inner, moved, inner]
-            laplacian += values[:, inner, inner, moved]
-        return np.asarray(values[:, inner, inner, inner] - laplacian / 6.0)
+            laplacian += cubes[:, moved, inner, inner]
+            laplacian += cubes[:, inner, moved, inner]
+            laplacian += cubes[:, inner, inner, moved]
+        return np.asarray(cubes[:, inner, inner, inner] - laplacian / 6.0)
 
     def finished(self) -> Array:
         """Which coefficients have all their cells in bricks that are there, (bricks, 7, 7, 7)."""
@@ -149,7 +149,8 @@ class Level:
 
 def numbers(places: Indices, shape: Indices) -> Indices:
     """Number of each place in a box of bricks, shape (...)."""
-    return (places[..., 0] * shape[1] + places[..., 1]) * shape[2] + places[..., 2]
+    found: Indices = (places[..., 0] * shape[1] + places[..., 1]) * shape[2] + places[..., 2]
+    return found
 
 
 def _inserted(coefficients: Array) -> Array:
@@ -168,4 +169,5 @@ def _inserted(coefficients: Array) -> Array:
                 half[part, i, (fine - 1) // 2 + 1 : (fine - 1) // 2 + 3] = 0.5
     cubes = coefficients.reshape(-1, WIDE, WIDE, WIDE)
     made = np.einsum("axi,byj,czk,nijk->nabcxyz", half, half, half, cubes, optimize=True)
-    return 2.0 * made
+    found: Array = 2.0 * made
+    return found

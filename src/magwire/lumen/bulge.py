@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from magwire.kernels.centreline import LumenArrays
 from magwire.kernels.wall.gap import hessian_many, jets_many
+from magwire.kernels.wall.sheet import MOUTH_RADIUS
 from magwire.lumen.branch import Branch
 from magwire.lumen.distance import Wall
 
@@ -61,7 +62,8 @@ def sheet_bulge(arrays: LumenArrays, wall: Wall, inset: float) -> float:
     there = np.abs(gap - inset) < NEAR * wall.radius[:: max(1, len(wall.spots) // SPOTS)]
     matrices = hessian[there][:, SYMMETRIC].reshape(-1, 3, 3)
     largest = float(np.linalg.eigvalsh(matrices)[:, -1].max(initial=0.0))
-    flare = max((FLARE / float(radius) for radius in arrays.sheet[0].ends[:, 6]), default=0.0)
+    radii = wall.arrays.ends[:, MOUTH_RADIUS]
+    flare = max((FLARE / float(radius) for radius in radii), default=0.0)
     return max(largest, flare)
 
 

@@ -254,8 +254,8 @@ def _mouths(
     """The mouth that each cell is in: whose wall is nearest, or whose rim."""
     edges, count = BRICK * cells, BRICK**3
     flags = np.full((len(middles), count), -1, dtype=np.int16)
-    inner = np.stack(np.meshgrid(*[np.arange(BRICK)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
-    inner = (inner + 0.5) / BRICK - 0.5
+    cube = np.stack(np.meshgrid(*[np.arange(BRICK)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
+    inner = (cube + 0.5) / BRICK - 0.5
     found = nearest(mouths.tree, middles)
     for end in range(len(mouths.ends)):
         past, _ = mouths.past(end, middles)

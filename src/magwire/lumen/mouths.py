@@ -48,7 +48,8 @@ class Mouths(NamedTuple):
     def mine(self, end: int, points: Array, before: ArrayLike = 0.0) -> NDArray[np.bool_]:
         """Whether points of the wall are past an end's plane, or at most ``before`` it [m]."""
         along, off = self.past(end, points)
-        return (along >= -np.asarray(before)) & (off < ROUND_OFF * self.widest[end])
+        found: NDArray[np.bool_] = along >= -np.asarray(before)
+        return found & (off < ROUND_OFF * self.widest[end])
 
 
 class _Course(NamedTuple):
@@ -90,7 +91,7 @@ def open_up(sheet: Sheet, branches: Sequence[Branch]) -> Mouths:
             triangles += _ribbon(last, ring)
             beyond.append(np.full(2 * len(rim), reach == FAR))
             last, count = ring, count + len(rim)
-    tree = search_tree(*map(np.concatenate, (points, triangles, beyond)))
+    tree = search_tree(np.concatenate(points), np.concatenate(triangles), np.concatenate(beyond))
     return Mouths(tree, ends, widest)
 
 

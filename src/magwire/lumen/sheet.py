@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -157,7 +157,7 @@ def _indices(value: ArrayLike, count: int) -> Indices:
     return given.astype(np.int64)
 
 
-def _fixed(value: NDArray) -> NDArray:
+def _fixed(value: NDArray[Any]) -> NDArray[Any]:
     value = value.copy()
     value.flags.writeable = False
     return value

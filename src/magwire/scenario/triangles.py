@@ -78,7 +78,7 @@ class TrianglesText(Notation):
 def _numbers(name: str, words: list[str], kind: type) -> NDArray[Any]:
     """Numbers by threes."""
     try:
-        found = np.array(words, dtype=kind)
+        found: NDArray[Any] = np.array(words, dtype=kind)
     except ValueError as error:
         raise fault(f"must be {EXPECTED}; received {name} with an error: {error}") from None
     except OverflowError:
