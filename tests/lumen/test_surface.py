@@ -108,7 +108,7 @@ def wall_force(lumen: mw.Lumen) -> Array:
     )
     contact = mw.Barrier(stiffness=3e3, activation_gap=2e-5)
     state = mw.Simulation(wire, lumen, contact=contact).equilibrium(feed=40e-3)
-    return np.array([state.contact_force.sum(axis=0)[:2], state.contact_force[-1, :2]])
+    return np.array([state.wall_force.sum(axis=0)[:2], state.wall_force[-1, :2]])
 
 
 @pytest.mark.parametrize("wide", [1.0, 2.0])
@@ -149,7 +149,7 @@ def test_what_is_no_wall_is_refused() -> None:
             np.zeros((1, 3))
         )
     with pytest.raises(InputError, match="meet by two at an edge"):
-        Sheet(sheet.points, np.concatenate([sheet.triangles, [[*sheet.triangles[0, :2], 40]]]))
+        Sheet(sheet.points, np.concatenate([sheet.triangles, [[*sheet.triangles[60, :2], 400]]]))
     mixed = sheet.triangles.copy()
     mixed[::3] = mixed[::3, ::-1]
     turned = Sheet(sheet.points, mixed).triangles

@@ -89,12 +89,12 @@ def build(sheet: Sheet, branches: Sequence[Branch]) -> Wall:
 
 
 def _build(sheet: Sheet, branches: Sequence[Branch]) -> Wall:
+    if sheet.volume < 0.0:
+        sheet = sheet.turned()
     mouths = open_up(sheet, branches)
     points = np.concatenate([branch.points for branch in branches])
     radius = np.concatenate([branch.radius for branch in branches])
     depth = nearest(mouths.tree, points).depth
-    if float(np.median(depth)) < 0.0:
-        return _build(sheet.turned(), branches)
     _check_inside(points, radius, depth)
     near, narrow = KDTree(points), float(radius.min())
     spots = _spots(sheet, SPACING * narrow)

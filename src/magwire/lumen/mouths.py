@@ -49,7 +49,8 @@ class Mouths(NamedTuple):
         """Whether points of the wall are past an end's plane, or at most ``before`` it [m]."""
         along, off = self.past(end, points)
         found: NDArray[np.bool_] = along >= -np.asarray(before)
-        return found & (off < ROUND_OFF * self.widest[end])
+        found &= off < ROUND_OFF * self.widest[end]
+        return found
 
 
 class _Course(NamedTuple):

@@ -73,6 +73,18 @@ class Sheet:
         """The same wall with its inside outside."""
         return Sheet(self.points, self.triangles[:, ::-1])
 
+    @property
+    def volume(self) -> float:
+        """What is inside, its rims closed by fans [m^3]; negative if normals point inward."""
+        middle = self.points.mean(axis=0)
+        corners = [self.points[self.triangles] - middle]
+        for rim in self.rims:
+            here = self.points[rim] - middle
+            centre = np.broadcast_to(here.mean(axis=0), here.shape)
+            corners.append(np.stack([np.roll(here, -1, axis=0), here, centre], axis=1))
+        a, b, c = np.concatenate(corners).transpose(1, 0, 2)
+        return float(np.sum(a * np.cross(b, c))) / 6.0
+
     @cached_property
     def rims(self) -> list[Indices]:
         """Points of each open rim in their order, the first one not repeated."""
