@@ -383,6 +383,7 @@ class Simulation:
             points.append(centre)
             radii.append(radius)
             tags.append(np.full(len(centre), i, dtype=np.int64))
+        sheet = self.system.lumen.sheet
         return RunInfo(
             nodes=self.system.wire.nodes,
             scales=self.system.scales,
@@ -396,6 +397,7 @@ class Simulation:
             motion=motion,
             inputs=self.system.input_names,
             resistances=self.system.resistances,
+            **({} if sheet is None else {"surface": (sheet.points, sheet.triangles)}),
         )
 
     def _way(self) -> Array:

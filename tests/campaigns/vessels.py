@@ -16,14 +16,18 @@ SLOW = (".stl", ".ply", ".obj")
 
 
 def reading(path: Path) -> Callable[[], int]:
-    """Read a file and join its tubes; 1 with the sentence if it is refused."""
+    """Read a file, join its tubes and make its walls; 1 with the sentence if it is refused."""
 
     def act() -> int:
         from magwire.errors import MagwireError
         from magwire.vessel import Vessel
 
         try:
-            Vessel.read(path, "mm", radius=2e-3 if path.suffix == ".pth" else None).lumen()
+            radius = 2e-3 if path.suffix == ".pth" else None
+            vessel = Vessel.read(path, "mm", radius=radius)
+            vessel.lumen()
+            if vessel.wall is not None:
+                vessel.lumen(wall="surface").arrays()
         except MagwireError as error:
             sys.stderr.write(f"{error}\n")
             return 1

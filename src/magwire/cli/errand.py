@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from magwire.cli.reading import spot
 from magwire.contact import Barrier
@@ -31,6 +31,7 @@ DENSITY = 2000.0  # plays no part in equilibria [kg/m^3]
 DEFAULTS = {"modulus": "3 MPa", "magnetization": "128 kA/m"}
 
 Words = Mapping[str, str | None]
+WallKind = Literal["balls", "surface"]
 
 
 class Work(NamedTuple):
@@ -56,7 +57,13 @@ class Work(NamedTuple):
     vessel: Vessel | None
 
 
-def of_file(source: Source, units: str | None, words: Words, options: dict[str, Any]) -> Work:
+def of_file(
+    source: Source,
+    units: str | None,
+    words: Words,
+    options: dict[str, Any],
+    wall: WallKind = "balls",
+) -> Work:
     """What to plan for a vessel's file.
 
     Parameters
@@ -66,6 +73,8 @@ def of_file(source: Source, units: str | None, words: Words, options: dict[str, 
     words
         Texts by name: the wire's ``diameter``, ``modulus``, ``magnetization`` and ``magnet``, and
         the largest ``field``.
+    wall
+        As of ``Vessel.lumen``.
     """
     if words["diameter"] is None:
         raise InputError(
@@ -73,9 +82,10 @@ def of_file(source: Source, units: str | None, words: Words, options: dict[str, 
         )
     _read(words, "diameter", "diameter", "--wire")  # better said before the file is read
     vessel = Vessel.read(source, units, **options)
-    lumen = vessel.lumen()
+    lumen = vessel.lumen(wall=wall)
     demands = _demands(words, Demands())
-    return Work(lumen, _wire(words, lumen), demands, None, vessel.record(), vessel)
+    notes = vessel.record(wall)
+    return Work(lumen, _wire(words, lumen), demands, None, notes, vessel)
 
 
 def of_scenario(scenario: Scenario, words: Words) -> Work:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
 
@@ -44,6 +44,8 @@ class Reading:
         By how many radii lines are made longer at their open ends.
     cut
         Points such as "1 mm, 2 mm, 3 mm" at which loops are opened.
+    wall
+        What a wire feels: balls around the centrelines, or the triangles of the file's surface.
     """
 
     units: str | None = None
@@ -55,6 +57,7 @@ class Reading:
     smoothing: float = 0.5
     extend: float = 0.0
     cut: Points = ()
+    wall: Literal["balls", "surface"] = "balls"
 
     def options(self) -> dict[str, Any]:
         """What ``Vessel.read`` takes, but for the unit."""

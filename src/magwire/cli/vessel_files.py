@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING, Literal
 
 from magwire.cli.words import CommandError
 from magwire.files import write_whole
@@ -10,11 +11,21 @@ from magwire.units import parse
 from magwire.vessel import Spot, Vessel
 from magwire.vessel.files import Line, netcdf, vtp
 
+if TYPE_CHECKING:
+    from magwire.lumen import Lumen
+
 WRITTEN = (".vtp", ".nc", ".toml")
 MM = 1e3
 
 
-def write(vessel: Vessel, target: Spot | None, out: Path, *, force: bool) -> None:
+def write(
+    vessel: Vessel,
+    target: Spot | None,
+    out: Path,
+    *,
+    wall: Literal["balls", "surface"],
+    force: bool,
+) -> None:
     """Write a vessel as .vtp in millimetres, as .nc in metres, or as a scenario's table in .toml.
 
     Parameters
@@ -25,16 +36,23 @@ def write(vessel: Vessel, target: Spot | None, out: Path, *, force: bool) -> Non
         That of the scenario's table.
     out
         The file to write.
+    wall
+        As of ``Vessel.lumen``; the surface goes into a scenario's table only.
     force
         Whether it may be there already.
     """
+    if wall == "surface" and out.suffix in (".vtp", ".nc"):
+        raise CommandError(
+            f"Option --wall must be 'balls' for a file of tubes such as '{out}'; received "
+            "'surface', which a .toml can hold."
+        )
     if out.suffix not in WRITTEN:
         raise CommandError(
             f"Output file '{out}' must end in one of {', '.join(WRITTEN)}; received {out.suffix!r}."
         )
     if out.exists() and not force:
         raise CommandError(f"Output file '{out}' exists already; use --force to overwrite it.")
-    lumen = vessel.lumen(target)  # refuses what could not be used
+    lumen = vessel.lumen(target, wall=wall)  # refuses what could not be used
     factor = MM if out.suffix == ".vtp" else 1.0
     tubes = vessel.tubes.items()
     lines = [Line(name, factor * tube.points, factor * tube.radius) for name, tube in tubes]
@@ -45,7 +63,7 @@ def write(vessel: Vessel, target: Spot | None, out: Path, *, force: bool) -> Non
         elif out.suffix == ".nc":
             netcdf.write(out, lines, ends)
         else:
-            write_whole(out, _toml(vessel, str(lumen.target)))
+            write_whole(out, _toml(vessel, lumen))
     except OSError as error:
         reason = (error.strerror or "unknown reason").lower()
         raise CommandError(f"Output file '{out}' cannot be written: {reason}.") from None
@@ -64,10 +82,12 @@ def draw(vessel: Vessel, path: Path, wire: str | None) -> None:
         raise CommandError(f"Picture '{path}' cannot be written: {why}.") from None
 
 
-def _toml(vessel: Vessel, target: str) -> str:
+def _toml(vessel: Vessel, lumen: Lumen) -> str:
     import tomli_w
 
-    from magwire.scenario.kinds.lumen.vessel import rows_of
+    from magwire.scenario.kinds.lumen.vessel import rows_of, surface_of
 
-    table = {"shape": "vessel", "target": target, "branches": rows_of(vessel)}
+    table = {"shape": "vessel", "target": str(lumen.target), "branches": rows_of(vessel)}
+    if lumen.sheet is not None:
+        table |= {"wall": "surface", "surface": surface_of(lumen.sheet)}
     return tomli_w.dumps({"lumen": table})

@@ -66,6 +66,9 @@ class RunInfo:
         Names and units of the actuator's inputs.
     resistances
         Those of the coils that they are currents of [ohm]; 0 where there is none, or none known.
+    surface
+        Corners, shape (n, 3) [m], and triangles, shape (m, 3), of a wall that is a surface; none of
+        a wall of balls.
     """
 
     nodes: int
@@ -81,6 +84,10 @@ class RunInfo:
     inputs: tuple[tuple[str, str], ...] = UNIFORM_INPUTS
     resistances: tuple[float, ...] = ()
     hardware: str = ""
+    surface: tuple[Array, NDArray[np.int64]] = (
+        np.zeros((0, 3)),
+        np.zeros((0, 3), dtype=np.int64),
+    )
 
 
 @dataclass(frozen=True)

@@ -305,6 +305,8 @@ class System:
     @cached_property
     def bulge(self) -> float:
         """Largest curvature with which the wall bulges towards the wire's axis [1/m]."""
+        if self.walls.sheet:
+            return self.lumen.bulge(self.keep_off)
         return largest(self._bulges, self.lumen.branches)
 
     @cached_property
@@ -325,10 +327,11 @@ class System:
         bed = self._new_bed()
         if bed:
             between = divide_bed(self.firmness, edge, self.bulge, length, self.wire.nodes)
-        if between.parts > 1:
+        if between.parts > 1 and not self.walls.sheet:
             between = between._replace(bulges=self._bulges_by_place)
         share = between.parts if bed else 1  # of its cell's wall that a node stands for
-        none = Tube(0.0, 0.0, 0.0, self.walls, np.full((1, 4), -np.inf), np.zeros((1, JET)))
+        balls = self.walls._replace(sheet=())
+        none = Tube(0.0, 0.0, 0.0, balls, np.full((1, 4), -np.inf), np.zeros((1, JET)))
         return Wall(
             stiffness=self.firmness.stiffness / share / unit,
             gap=self.firmness.activation_gap / length,

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from magwire.export.frames import Frame, turned
 from magwire.export.vtp import write_pvd_list, write_vtp
-from magwire.export.wall import wall
+from magwire.export.wall import of_surface, wall
 from magwire.view import content, looks
 
 if TYPE_CHECKING:
@@ -83,6 +83,8 @@ def _fields(data: xr.Dataset, frame: Frame) -> Drawn:
 
 def _walls(data: xr.Dataset, branches: list[Array], frame: Frame) -> Drawn:
     mesh = wall(branches)
+    if "surface_points" in data:
+        mesh = of_surface(data["surface_points"].values, data["surface_triangles"].values, branches)
     points = turned(mesh.points, frame).astype("<f4")
     known = looks.radius(data)
     skin = 0.0 if looks.on_axis(data) or known is None else known

@@ -106,6 +106,13 @@ def wall(branches: list[Array]) -> Wall:
     return Wall(np.concatenate(points), np.concatenate(triangles), radius)
 
 
+def of_surface(points: Array, triangles: NDArray[np.int64], branches: list[Array]) -> Wall:
+    """A wall that is a surface: its corners, its triangles, and the branches in it."""
+    balls = np.concatenate(branches)
+    radius = balls[KDTree(balls[:, :3]).query(points)[1], 3]
+    return Wall(points, np.asarray(triangles, dtype=np.int64), radius)
+
+
 def _thinned(branch: Array, most: int) -> Array:
     keep = np.unique(np.linspace(0, len(branch) - 1, most).round().astype(int))
     found: Array = branch[keep]

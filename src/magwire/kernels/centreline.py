@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from magwire.kernels._jit import kernel
 from magwire.kernels.vectors import combine, dot, norm, scale
+from magwire.kernels.wall.sheet import Sheet
 
 # Columns of LumenArrays.branches.
 SPACING, FIRST, PIECES, BEGIN, END, BLEND = 0, 1, 2, 3, 13, 23
@@ -77,6 +78,8 @@ class LumenArrays(NamedTuple):
         Smallest radius; no voxel that is nearer to a wall from outside is without seeds.
     moving
         How it moves, if it does.
+    sheet
+        The wall of triangles, if that is the wall: then balls only say where points are.
     """
 
     coefficients: NDArray
@@ -93,6 +96,7 @@ class LumenArrays(NamedTuple):
     nz: int
     margin: float
     moving: tuple[()] | tuple[Moving] = ()
+    sheet: tuple[()] | tuple[Sheet] = ()
 
 
 @kernel

@@ -19,7 +19,7 @@ from magwire.kernels.arrays import Array, Index
 from magwire.kernels.glance import GLANCE, glance
 from magwire.kernels.march import Drive, march
 from magwire.kernels.vectors import row
-from magwire.kernels.wall.gap import gap_value
+from magwire.kernels.wall.gap import balls_value, gap_value
 
 SEEN = GLANCE + 3
 """Numbers that are seen of a wire: a glance, then the arc parameter of the tip on the way to the
@@ -93,7 +93,7 @@ def see(parts, patch, turn, seen):
     tip = row(parts.state.q, parts.state.q.shape[0] - 1)
     g, s, _, _ = gap_value(parts.path, tip[0], tip[1], tip[2])
     seen[GLANCE], seen[GLANCE + 1] = s, g
-    _, _, branch, _ = gap_value(parts.model[3], tip[0], tip[1], tip[2])
+    _, _, branch, _ = balls_value(parts.model[3], tip[0], tip[1], tip[2])
     seen[GLANCE + 2] = branch
 
 

@@ -14,7 +14,7 @@ from magwire.kernels.hinge import material_frame
 from magwire.kernels.vectors import combine, dot, norm, row, scale, sub
 from magwire.kernels.wall.contact import add_walls
 from magwire.kernels.wall.foundation import at_edge, at_node, pressed_in
-from magwire.kernels.wall.gap import gap_jet, gap_value
+from magwire.kernels.wall.gap import gap_jet, gap_value, slopes
 from magwire.kernels.wall.motion import at_rest, pace
 
 FINEST = 1.0 / 24.0  # part of an edge that the search for its nearest point passes over, at most
@@ -26,8 +26,13 @@ def hop(lumen, x, t, offset, least):
 
     The point's ball is part of the lumen: g + rho - |x + s t - c| is what it leaves at s, with the
     distance rho of the point from the ball's centre, which is at least the smallest radius less g.
-    Past an open end there is no such ball: the gap changes by no more than the way.
+    Past an open end, and of a wall of triangles, there is no such ball: the gap changes by no more
+    than the way times its slope.
     """
+    steep = slopes(lumen.sheet)[1]
+    if steep > 1.0:
+        g, _, _, _ = gap_value(lumen, x[0], x[1], x[2])
+        return (inf, 0.0) if g == inf else (g - offset, max(g - offset - least, 0.0) / steep)
     g, _, _, safe, n, _ = gap_jet(lumen, x[0], x[1], x[2])
     if g == inf:
         return inf, 0.0

@@ -11,13 +11,17 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from magwire.kernels.centreline import LumenArrays
-from magwire.kernels.wall.gap import hessian_many
+from magwire.kernels.wall.gap import hessian_many, jets_many
+from magwire.kernels.wall.sheet import MOUTH_RADIUS
 from magwire.lumen.branch import Branch
+from magwire.lumen.distance import Wall
 
 Array = NDArray[np.float64]
 
 SPACING = 0.25  # of the rings of points, over the radius
 AROUND = 12  # points on a ring
+SPOTS = 40_000  # of a wall of triangles that are looked at
+STEPS = 3  # towards the points that are some way off a wall
 RINGS = 20_000  # on a branch, at most
 NEAR = 0.3  # points this near to the wall count as points of it, over the radius
 FLARE = 0.3  # curvature of an outlet's flare, over its radius, as far out as wires lie on it
@@ -84,6 +88,23 @@ def widened(bulge: Bulge, reach: float) -> Array:
     padded = np.pad(bulge.curvature, far, mode="edge")
     values: Array = sliding_window_view(padded, 2 * far + 1).max(axis=1)
     return values
+
+
+def sheet_bulge(arrays: LumenArrays, wall: Wall, inset: float) -> float:
+    """The same for a wall of triangles, looked for at points all over it, ``inset`` off it."""
+    points = wall.spots[:: max(1, len(wall.spots) // SPOTS)].copy()
+    count = len(points)
+    gap, normal, hessian = np.empty(count), np.empty((count, 3)), np.empty((count, 6))
+    for _ in range(STEPS):
+        jets_many(arrays, points, gap, normal, hessian)
+        points += np.where(np.isfinite(gap), inset - gap, 0.0)[:, None] * normal
+    jets_many(arrays, points, gap, normal, hessian)
+    there = np.abs(gap - inset) < NEAR * wall.radius[:: max(1, len(wall.spots) // SPOTS)]
+    matrices = hessian[there][:, SYMMETRIC].reshape(-1, 3, 3)
+    largest = float(np.linalg.eigvalsh(matrices)[:, -1].max(initial=0.0))
+    radii = wall.arrays.ends[:, MOUTH_RADIUS]
+    flare = max((FLARE / float(radius) for radius in radii), default=0.0)
+    return max(largest, flare)
 
 
 def _rounding(branches: Sequence[Branch]) -> float:

@@ -7,21 +7,25 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from magwire.errors import InputError, array, instance, nonnegative, numbers, positive, whole
 from magwire.kernels.centreline import LumenArrays
+from magwire.kernels.wall.gap import gap_many
 from magwire.lumen import shapes
 from magwire.lumen.branch import Bend, Branch
-from magwire.lumen.bulge import Bulge, bulges, largest
+from magwire.lumen.bulge import Bulge, bulges, largest, sheet_bulge
+from magwire.lumen.distance import Wall as SheetWall
+from magwire.lumen.distance import build, scaled_sheet
 from magwire.lumen.forks import join_ways
 from magwire.lumen.grid import scaled
 from magwire.lumen.lazy import Lazy
 from magwire.lumen.names import meant
 from magwire.lumen.search import Search
+from magwire.lumen.sheet import Sheet
 from magwire.lumen.tree import join
 from magwire.lumen.words import lumen_words
 
@@ -45,6 +49,8 @@ class Lumen:
         makes branches and paths.
     target
         The outlet to go to; the first one if left out.
+    sheet
+        The wall, if that is of triangles and not of balls; ``with_surface`` makes it.
 
     Notes
     -----
@@ -56,6 +62,7 @@ class Lumen:
     branches: tuple[Branch, ...]
     paths: Mapping[str, Branch] = field(default_factory=dict, kw_only=True)
     target: str | None = field(default=None, kw_only=True)
+    sheet: Sheet | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         branches: object = self.branches
@@ -78,6 +85,11 @@ class Lumen:
             object.__setattr__(self, "target", self.outlets[0])
         if self.target is not None:
             object.__setattr__(self, "target", self._known("target", self.target))
+        instance("Lumen", "sheet", self.sheet, Sheet, or_none=True)
+        if self.sheet is not None and not self.branches:
+            raise InputError(
+                "Input sheet of Lumen must come with branches that run inside of it; received none."
+            )
 
     def __repr__(self) -> str:
         return lumen_words(self)
@@ -260,6 +272,7 @@ class Lumen:
         units: str | None = None,
         *,
         target: Spot | None = None,
+        wall: Literal["balls", "surface"] = "balls",
         **options: Any,
     ) -> Lumen:
         """Vessel from a file of centrelines, or of a surface, whose centrelines are extracted.
@@ -282,7 +295,7 @@ class Lumen:
         """
         from magwire.vessel import Vessel
 
-        return Vessel.read(path, units, **options).lumen(target)
+        return Vessel.read(path, units, **options).lumen(target, wall=wall)
 
     @classmethod
     def ways(
@@ -333,6 +346,41 @@ class Lumen:
         size = np.asarray(positive(f"Lumen.{name}", "radius", radius, "m"))
         return cls((Branch(points, size, begin_tangent=begin, end_tangent=end),))
 
+    def with_surface(self, points: ArrayLike, triangles: ArrayLike) -> Lumen:
+        """The lumen with triangles for a wall, in place of the balls along its branches.
+
+        Parameters
+        ----------
+        points
+            Corners of the triangles, shape (n, 3) [m].
+        triangles
+            Their indices, shape (m, 3). The surface is in one piece, has rims where the lumen is
+            open and nowhere else, and the branches run inside of it.
+
+        Raises
+        ------
+        InputError
+            If these are no such triangles.
+
+        Notes
+        -----
+        (P-39) of the theory pages. The wall that a wire feels is smooth, and nowhere outside of the
+        triangles; ``fidelity`` says how far inside it is.
+        """
+        made = replace(self, sheet=Sheet(np.asarray(points), np.asarray(triangles)))
+        return made
+
+    @property
+    def fidelity(self) -> tuple[float, float, float]:
+        """How far a wall of triangles lies inside of them: mean, 95 percent and largest [m].
+
+        Zero for a wall of balls, which is what it is.
+        """
+        if self._wall is None:
+            return 0.0, 0.0, 0.0
+        off = self._wall.off
+        return float(off.mean()), float(np.percentile(off, 95.0)), float(off.max())
+
     def with_entry(self, length: float) -> Lumen:
         """The lumen with a straight tube of ``length`` [m] in front of its entrance."""
         if nonnegative("Lumen.with_entry", "length", length, "m") == 0.0 or not self.branches:
@@ -358,7 +406,7 @@ class Lumen:
             Name of the outlet; the lumen's own target if left out.
         """
         if not self.paths and target is None:
-            return self
+            return self if self.sheet is None else replace(self, sheet=None)
         name = self.target if target is None else self._known("target", target)
         return self._ways[str(name)]
 
@@ -427,7 +475,12 @@ class Lumen:
         points
             Shape (n, 3) [m].
         """
-        return self._search.near(array("Lumen", "points", points, (None, 3), "m"))[0]
+        found = array("Lumen", "points", points, (None, 3), "m")
+        if self.sheet is None:
+            return self._search.near(found)[0]
+        gap, arc = np.empty((2, len(found)))
+        gap_many(self.arrays(), found, gap, arc, np.empty(len(found), dtype=np.int32))
+        return gap
 
     def locate(self, points: ArrayLike) -> tuple[Array, Indices]:
         """Arc parameter [m] and branch of the ball that each point is deepest in, shapes (n,).
@@ -457,6 +510,8 @@ class Lumen:
         A chord between two points comes nearer to the wall than they are by at most an eighth of
         this times its length squared.
         """
+        if self._wall is not None:
+            return sheet_bulge(self.arrays(), self._wall, inset)
         return largest(self.bulges(inset), self.branches)
 
     def bulges(self, inset: float) -> list[Bulge]:
@@ -465,9 +520,16 @@ class Lumen:
 
     def arrays(self, length_scale: float = 1.0) -> LumenArrays:
         """The lumen as the kernels take it, in units of ``length_scale`` [m]."""
-        return scaled(
-            self._search.arrays, positive("Lumen.arrays", "length_scale", length_scale, "m")
-        )
+        scale = positive("Lumen.arrays", "length_scale", length_scale, "m")
+        balls = scaled(self._search.arrays, scale)
+        if self._wall is None:
+            return balls
+        return balls._replace(sheet=(scaled_sheet(self._wall.arrays, scale),))
+
+    @cached_property
+    def _wall(self) -> SheetWall | None:
+        """The wall of triangles, if that is the wall; made when first asked for."""
+        return None if self.sheet is None else build(self.sheet, self.branches)
 
     @cached_property
     def _ways(self) -> Mapping[str, Lumen]:

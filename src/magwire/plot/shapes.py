@@ -7,7 +7,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from matplotlib.collections import LineCollection
 from matplotlib.patches import Polygon
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
@@ -27,6 +29,8 @@ VIEW = (24.0, -58.0)
 """Elevation and azimuth that a single tube is seen from [deg]."""
 SLIM = 3.0
 """Longest extent over the second longest from which a box in space leaves room for its names."""
+TRIANGLES = 20_000
+"""Triangles of a surface that are drawn."""
 GUIDE = 0.12
 """Length of the guide that is shown before the entrance, over the largest extent."""
 
@@ -97,7 +101,13 @@ def draw_planar(
 ) -> None:
     """Draw lumen and wires in a coordinate plane; colours run up to the push ``until``."""
     i, j = pair
-    for left, right in _walls(data, pair):
+    sheet = surface(data)
+    if sheet is not None:
+        cut = LineCollection(
+            _cut(sheet, data, pair), colors=style.LUMEN_EDGE, linewidths=0.9, zorder=1
+        )
+        ax.add_collection(cut)
+    for left, right in _walls(data, pair) if sheet is None else ():
         for wall in (left, right):
             ax.plot(*wall.T, color=style.LUMEN_EDGE, linewidth=0.9, zorder=1)
         corners = np.concatenate([left, right[::-1]])
@@ -118,8 +128,10 @@ def draw_spatial(
     ax: Any, data: xr.Dataset, *, wires: bool = True, until: float | None = None
 ) -> None:
     """Draw lumen and wires in space, on 3D axes; colours run up to the push ``until``."""
-    parts = branches(data)
-    for part in parts:
+    parts, sheet = branches(data), surface(data)
+    if sheet is not None:
+        draw_sheet(ax, *sheet)
+    for part in parts if sheet is None else ():
         x, y, z = _outside(tube(part), [other for other in parts if other is not part])
         ax.plot_surface(
             x, y, z, color=style.LUMEN_EDGE, alpha=0.16, linewidth=0.0, shade=False, zorder=1,
@@ -131,6 +143,43 @@ def draw_spatial(
         ax.plot(*inside.T, color=colour, linewidth=1.8, zorder=3)
         ax.plot(*nodes[-1:].T, "o", color=colour, markersize=4, mec="white", mew=0.5, zorder=4)
     frame(ax, parts, (low, high), zoom=1.0 if len(parts) < 2 else 0.95)
+
+
+def draw_sheet(ax: Any, points: Array, triangles: NDArray[np.int64]) -> None:
+    """Draw triangles [mm] in space; of very many, some, evenly spread."""
+    some = triangles[:: max(1, len(triangles) // TRIANGLES)]
+    sheet = Poly3DCollection(
+        points[some], facecolors=style.LUMEN_EDGE, alpha=0.16, linewidths=0.0, rasterized=True
+    )
+    ax.add_collection3d(sheet)
+
+
+def surface(data: xr.Dataset) -> tuple[Array, NDArray[np.int64]] | None:
+    """Corners [mm] and triangles of a wall that is a surface; None of a wall of balls."""
+    if "surface_points" not in data:
+        return None
+    return 1e3 * data["surface_points"].values, data["surface_triangles"].values
+
+
+def _cut(
+    sheet: tuple[Array, NDArray[np.int64]], data: xr.Dataset, pair: tuple[int, int]
+) -> list[Array]:
+    """Where the plane of the centrelines cuts triangles: segments, shape (2, 2) each [mm]."""
+    across = ({0, 1, 2} - set(pair)).pop()
+    height = float(np.mean([part.points[:, across].mean() for part in branches(data)]))
+    corners = sheet[0][sheet[1]]
+    off = corners[:, :, across] - height
+    off[off == 0.0] = 1e-12
+    found = []
+    for corner, side in zip(corners, off, strict=True):
+        ends = []
+        for k in range(3):
+            a, b = side[k], side[(k + 1) % 3]
+            if a * b < 0.0:
+                ends.append(corner[k] + a / (a - b) * (corner[(k + 1) % 3] - corner[k]))
+        if len(ends) == 2:
+            found.append(np.array(ends)[:, list(pair)])
+    return found
 
 
 def bounds(parts: list[Branch]) -> tuple[Array, Array]:

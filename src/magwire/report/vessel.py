@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from magwire.errors import MagwireError
 from magwire.units import DIMENSIONS, parse, show
@@ -31,6 +31,7 @@ def inspect(
     units: str | None,
     wire: dict[str, str | None],
     other: Path | None,
+    wall: Literal["balls", "surface"] = "balls",
     **options: Any,
 ) -> Inspected:
     """What to know of a vessel's file.
@@ -46,6 +47,8 @@ def inspect(
         Texts by name: its ``diameter``, its ``modulus`` and the ``force`` that it may take.
     other
         A file of the same vessel, to compare axes with.
+    wall
+        As of ``Vessel.lumen``.
     options
         For ``Vessel.read``.
     """
@@ -56,16 +59,21 @@ def inspect(
     vessel = Vessel.read(source, unit, **options)
     known = units or stated or len(sizes(drawing)) == 1
     refusal = "" if known else str(missing_unit(called(source), drawing))
+    words: tuple[str, ...] = ()
     try:
-        vessel.lumen()
-        vessel.check()
+        vessel.lumen(wall=wall)
+        if wall == "surface":
+            words = (vessel.fidelity_words,)
+        else:
+            words = vessel.deviation_words
+            vessel.check()
     except MagwireError as error:
         refusal = refusal or str(error)
     lines = [
         f"{'file':12}{_contents(drawing)}",
         f"{'units':12}{_unit_words(drawing, units, stated)}",
         f"{'smoothing':12}{vessel.smoothing:g} radii",
-        *(f"{'' if k else 'wall':12}{line}" for k, line in enumerate(vessel.deviation_words)),
+        *(f"{'' if k else 'wall':12}{line}" for k, line in enumerate(words)),
         "",
         *_ends(vessel),
         "",

@@ -280,6 +280,19 @@ CONSTANTS: dict[str, Constant] = {
         lambda i, _: i.lumen_branch,
         np.dtype(np.int32),
     ),
+    "surface_points": Constant(
+        ("surface_point", "xyz"),
+        "m",
+        "corners of the triangles of a wall that is a surface",
+        lambda i, _: i.surface[0],
+    ),
+    "surface_triangles": Constant(
+        ("surface_triangle", "corner"),
+        "1",
+        "points that are the corners of each triangle",
+        lambda i, _: i.surface[1],
+        np.dtype(np.int32),
+    ),
 }
 
 
@@ -296,6 +309,9 @@ def sizes(info: RunInfo, layout: Layout) -> dict[str, int]:
         "input": len(info.inputs),
         "arc": len(layout.arc),
         "centreline_point": len(info.lumen_radius),
+        "surface_point": len(info.surface[0]),
+        "surface_triangle": len(info.surface[1]),
+        "corner": 3,
     }
 
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components, dijkstra
 from scipy.spatial import KDTree
 
@@ -37,13 +38,14 @@ COARSEST = (
 class Extracted(NamedTuple):
     """Lines from one end to each other one, what to know of them, all ends by name, the wall.
 
-    The wall is the surface without what closes its ends.
+    The wall is the surface without what closes its ends; ``closed`` has its holes closed.
     """
 
     lines: tuple[Line, ...]
     notes: tuple[str, ...]
     ends: dict[str, Array]
     wall: Surface
+    closed: Surface
 
 
 Choice = Callable[[dict[str, End]], str]
@@ -77,7 +79,8 @@ def extract(surface: Surface, choose: Choice = widest) -> Extracted:
         If the surface is in pieces, has no inside or fewer than two ends, or is no tube.
     """
     hull = shell(surface)
-    ends, notes = _without_holes(hull)
+    ends, notes, holes = _without_holes(hull)
+    closed = Surface(hull.points, np.concatenate([hull.wall, hull.caps[holes[hull.cap_of]]]))
     if len(ends) > 1 and vmtk.installed():
         named = _named(ends)
         first = choose(named)
@@ -86,10 +89,10 @@ def extract(surface: Surface, choose: Choice = widest) -> Extracted:
             spread = SPACING * min(end.radius for end in ends)
             accuracy = _accuracy(lines, *wall_samples(hull.points, hull.wall, spread))
             notes = (*hull.notes, *notes, "The centrelines are by VMTK.", accuracy)
-            return _result(lines, notes, named, hull)
+            return _result(lines, notes, named, hull)._replace(closed=closed)
         notes = (*notes, "VMTK does not find the path to every end; magwire's own extraction does.")
     lines, named, accuracy = _through_voxels(hull, ends, choose)
-    return _result(lines, (*hull.notes, *notes, accuracy), named, hull)
+    return _result(lines, (*hull.notes, *notes, accuracy), named, hull)._replace(closed=closed)
 
 
 def _named(ends: list[End]) -> dict[str, End]:
@@ -103,7 +106,8 @@ def _result(
     lines: tuple[Line, ...], notes: tuple[str, ...], named: dict[str, End], hull: Shell
 ) -> Extracted:
     places = {name: end.centre for name, end in named.items()}
-    return Extracted(lines, notes, places, Surface(hull.points, hull.wall))
+    wall = Surface(hull.points, hull.wall)
+    return Extracted(lines, notes, places, wall, wall)
 
 
 def _through_voxels(
@@ -163,17 +167,21 @@ def _largest(inside: Interior) -> Interior:
     return Interior(inside.centres[kept], number, inside.cell)
 
 
-def _without_holes(hull: Shell) -> tuple[list[End], tuple[str, ...]]:
-    """The ends that a tube leads to: the wall around them runs along, not across, their axis."""
+def _without_holes(hull: Shell) -> tuple[list[End], tuple[str, ...], NDArray[np.bool_]]:
+    """The ends that a tube leads to: the wall around them runs along, not across, their axis.
+
+    With what to say of the others, and which of all they are.
+    """
     size = float(np.ptp(hull.points, axis=0).max())
     clean = [end.radius > SMALLEST * size and end.across < ACROSS for end in hull.ends]
     kept = [end for end, good in zip(hull.ends, clean, strict=True) if good]
     holes = [end for end, good in zip(hull.ends, clean, strict=True) if not good]
+    closed = ~np.array(clean, dtype=bool)
     if not holes:
-        return kept, ()
+        return kept, (), closed
     where = [f"at {place(end.centre)} with radius {long(end.radius)}" for end in holes[:LISTED]]
     more = f", and {len(holes) - LISTED} more" if len(holes) > LISTED else ""
-    return kept, (f"Holes in the wall: {len(holes)}, closed, {'; '.join(where)}{more}.",)
+    return kept, (f"Holes in the wall: {len(holes)}, closed, {'; '.join(where)}{more}.",), closed
 
 
 def _tips(inside: Interior, distance: Array, tree: KDTree) -> list[End]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -52,6 +53,8 @@ class Shell(NamedTuple):
         One for each open rim and each flat cap.
     notes
         What was done to the surface, a sentence each.
+    cap_of
+        The end that each triangle of the caps closes, shape (m,).
     """
 
     points: Array
@@ -59,6 +62,7 @@ class Shell(NamedTuple):
     caps: Indices
     ends: list[End]
     notes: tuple[str, ...]
+    cap_of: Indices
 
 
 def shell(surface: Surface) -> Shell:
@@ -80,7 +84,12 @@ def shell(surface: Surface) -> Shell:
     ends = [_end(points, triangles[cap], points.mean(axis=0)) for cap in flat]
     caps = np.concatenate(flat) if flat else np.zeros(0, dtype=np.int64)
     wall = np.setdiff1d(np.arange(len(triangles)), caps)
-    return Shell(points, triangles[wall], triangles[caps], ends, notes)
+    return Shell(points, triangles[wall], triangles[caps], ends, notes, _owners(flat))
+
+
+def _owners(caps: Sequence[Indices]) -> Indices:
+    """Which of some caps each triangle of all of them belongs to."""
+    return np.repeat(np.arange(len(caps)), [len(cap) for cap in caps]).astype(np.int64)
 
 
 def areas(points: Array, triangles: Indices) -> tuple[Array, Array]:
@@ -160,7 +169,7 @@ def _capped(
         size, normals = areas(every, triangles[around])
         across = np.average(np.abs(normals @ end.outward), weights=np.maximum(size, 1e-300))
         ends.append(end._replace(across=float(across)))
-    return Shell(every, triangles, np.concatenate(caps), ends, notes)
+    return Shell(every, triangles, np.concatenate(caps), ends, notes, _owners(caps))
 
 
 def _end(points: Array, cap: Indices, inside: Array) -> End:

@@ -64,6 +64,8 @@ class Found(NamedTuple):
         What was done, a sentence each.
     surface
         The file's surface, if it has one [m].
+    wall
+        The same, open at its ends and nowhere else [m].
     """
 
     ways: Ways | None
@@ -73,6 +75,7 @@ class Found(NamedTuple):
     original: Original | None
     notes: tuple[str, ...]
     surface: Surface | None
+    wall: Surface | None = None
 
 
 def found(source: Source, units: str | None, options: Options) -> Found:
@@ -122,6 +125,7 @@ def _placed(
         How it is to be read.
     """
     notes, named, surface, skin = drawing.notes, None, drawing.surface, None
+    closed = None
     lines = [
         Line(line.name, placement.points(line.points), _radius(line, sizes, drawing))
         for line in drawing.lines
@@ -132,7 +136,7 @@ def _placed(
         surface = Surface(placement.points(surface.points), surface.triangles)
         extracted = extract(surface, lambda ends: _entered(ends, options.entrance))
         lines, named = list(extracted.lines), extracted.ends
-        skin = extracted.wall
+        skin, closed = extracted.wall, extracted.closed
         notes = (*notes, *extracted.notes)
     known = options.entrance is None or isinstance(options.entrance, str)
     if drawing.entrance and known and options.entrance in (None, drawing.entrance):
@@ -141,7 +145,7 @@ def _placed(
     if not drawing.entrance and surface is None:
         notes = (*notes, *hints(drawing.arrays, lines, options.extend))
     made = _made(lines, options, notes, named, skin)
-    return made._replace(surface=surface)
+    return made._replace(surface=surface, wall=closed)
 
 
 def _radius(line: Line, sizes: tuple[float, float | None], drawing: Drawing) -> Array:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from magwire.errors import InputError, array
+from magwire.errors import InputError, array, one_of
 from magwire.lumen.branch import Branch
 from magwire.lumen.lazy import Lazy
 from magwire.vessel.balls import Original
@@ -20,6 +20,7 @@ from magwire.vessel.files.drawing import Array
 from magwire.vessel.placement import OWNER
 from magwire.vessel.reading import SMOOTHING, Found, Options, Source, Spot, chosen, found
 from magwire.vessel.ways import Tube
+from magwire.vessel.words import long
 
 SAME = 0.1  # how much closer to a point a tube has to be to be the one that is meant, in radii
 
@@ -68,6 +69,8 @@ class Vessel:
         The vessel as the file has it; None for one that magwire has made.
     surface
         The file's triangles, if it has any [m].
+    wall
+        The same, open at the vessel's ends and nowhere else [m].
     """
 
     balls: Mapping[str, Array]
@@ -78,6 +81,7 @@ class Vessel:
     notes: tuple[str, ...] = ()
     original: Original | None = None
     surface: Surface | None = None
+    wall: Surface | None = None
 
     @classmethod
     def read(
@@ -155,16 +159,32 @@ class Vessel:
             f"inside of it by {self.deviation.inside.words}",
         )
 
-    def record(self) -> tuple[str, ...]:
+    def record(self, wall: Literal["balls", "surface"] = "balls") -> tuple[str, ...]:
         """All that was done to the file, and how far the wall is from the file's, a sentence each.
+
+        Parameters
+        ----------
+        wall
+            As of ``lumen``.
 
         Raises
         ------
         InputError
-            As of ``check``.
+            As of ``check``, and of ``lumen`` if the wall is to be the surface.
         """
+        if wall == "surface":
+            return (*self.notes, f"The wall lies {self.fidelity_words}.")
         self.check()
         return (*self.notes, *(f"The wall lies {text}." for text in self.deviation_words))
+
+    @property
+    def fidelity_words(self) -> str:
+        """How far a wall of the file's triangles lies inside of them, part of a sentence."""
+        mean, most, worst = self.lumen(wall="surface").fidelity
+        return (
+            f"inside of the file's surface by {long(mean)} in the mean, {long(most)} at 95 "
+            f"percent, {long(worst)} at most, and nowhere outside of it"
+        )
 
     def check(self) -> None:
         """Refuse a vessel whose wall is not that of the file.
@@ -181,7 +201,13 @@ class Vessel:
                 f"outside by {self.deviation.outside.words}."
             )
 
-    def lumen(self, target: Spot | None = None, *, blend: float | None = None) -> Lumen:
+    def lumen(
+        self,
+        target: Spot | None = None,
+        *,
+        blend: float | None = None,
+        wall: Literal["balls", "surface"] = "balls",
+    ) -> Lumen:
         """The tubes joined into one lumen.
 
         Parameters
@@ -191,15 +217,26 @@ class Vessel:
             first one if left out.
         blend
             As in ``Lumen.tree`` [m].
+        wall
+            What a wire feels: "balls" around the paths, or the triangles of the file's "surface".
 
         Raises
         ------
         InputError
-            If there is no such outlet, or the tubes cannot be joined.
+            If there is no such outlet, the tubes cannot be joined, or the file has no surface.
         """
         from magwire.lumen.lumen import Lumen
 
-        return Lumen.ways(self.balls, target=self.outlet(target), blend=blend)
+        one_of(OWNER, "wall", wall, ("balls", "surface"))
+        if wall == "surface" and self.wall is None:
+            raise InputError(
+                f"Input wall of {OWNER} must be 'balls' for a file without a surface; received "
+                "'surface'."
+            )
+        lumen = Lumen.ways(self.balls, target=self.outlet(target), blend=blend)
+        if wall == "balls" or self.wall is None:
+            return lumen
+        return lumen.with_surface(self.wall.points, self.wall.triangles)
 
     def outlet(self, target: Spot | None) -> str | None:
         """The name of the outlet meant by a name, a number or a point; None if left out."""
@@ -238,6 +275,7 @@ def _vessel(read: Found, options: Options) -> Vessel:
         read.notes,
         read.original,
         read.surface,
+        read.wall,
     )
 
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import KDTree
 
 from magwire.errors import InputError, shortened
 from magwire.view import looks, packing
@@ -57,6 +58,7 @@ def run(data: xr.Dataset, name: str) -> dict[str, Any]:
             "magnet": [int(flag) for flag in looks.magnets(data)],
         },
         "branches": [packing.exact(tube, "float32") for tube in tubes],
+        "surface": surface(data, tubes),
         "arrays": arrays(data, smallest),
     }
 
@@ -93,6 +95,27 @@ def branches(data: xr.Dataset) -> list[Array]:
     index = data["lumen_branch"].values
     tube = np.column_stack([data["centreline"].values, data["lumen_radius"].values])
     return [_thinned(tube[index == which]) for which in np.unique(index)]
+
+
+def surface(data: xr.Dataset, tubes: list[Array]) -> dict[str, packing.Packed] | None:
+    """The wall, if it is a surface: corners by the points of the centrelines next to them."""
+    if "surface_points" not in data:
+        return None
+    balls = np.concatenate(tubes)
+    begins = np.concatenate([np.arange(len(tube)) == 0 for tube in tubes])
+    points = data["surface_points"].values
+    distance, nearest = KDTree(balls[:, :3]).query(points)
+    order = np.argsort(nearest, kind="stable")
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    count = np.bincount(nearest, minlength=len(balls))
+    far = np.zeros(len(balls))
+    np.maximum.at(far, nearest, distance)
+    return {
+        "positions": packing.exact(points[order], "float32"),
+        "indices": packing.exact(place[data["surface_triangles"].values]),
+        "rings": packing.exact(np.column_stack([balls, count, far, begins])),
+    }
 
 
 def facts(data: xr.Dataset) -> str:

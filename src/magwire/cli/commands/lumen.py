@@ -52,6 +52,7 @@ def inspect_lumen(
         units=reading.units,
         wire={"diameter": wire, "modulus": youngs_modulus, "force": max_force},
         other=compare,
+        wall=reading.wall,
         **reading.options(),
     )
     for line in found.lines:
@@ -90,5 +91,5 @@ def convert_lumen(
 
     source, out = source_of(files[:-1]), files[-1]
     vessel = Vessel.read(source, reading.units, **reading.options())
-    write(vessel, spot(target, "--target"), out, force=force)
+    write(vessel, spot(target, "--target"), out, wall=reading.wall, force=force)
     say(str(out))

@@ -79,7 +79,7 @@ def plan_outlets(
         work = errand.of_scenario(load(sources[0]), words)
     else:
         source = source_of(tuple(map(Path, sources)))
-        work = errand.of_file(source, reading.units, words, reading.options())
+        work = errand.of_file(source, reading.units, words, reading.options(), reading.wall)
     with nullcontext() if out is None else occupied(out, force=force):
         _carry_out(work, errand.outlets(work, target), out)
     return 0

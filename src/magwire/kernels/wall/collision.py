@@ -9,24 +9,27 @@ from __future__ import annotations
 from magwire.kernels._jit import kernel
 from magwire.kernels.vectors import combine, norm, row
 from magwire.kernels.wall.foundation import at_node, deepest
-from magwire.kernels.wall.gap import gap_value
+from magwire.kernels.wall.gap import gap_value, slopes
 from magwire.kernels.wall.motion import pace
 from magwire.kernels.wall.push import clear_of_wall, query
 
 CAUTION = 0.9  # part of the safe distance that one hop uses
 CLOSEST = 0.1  # a step may shrink the clearance to this part of itself, not further
 HOPS = 200
-STEEPEST = 10.0  # largest slope of the gap past an open end, where the radius changes by 0.95
+EXACTLY = 1.0 - 1e-9  # part of the gap, over its slope, that is taken for all of it
 
 
 @kernel
-def free_way(g, safe, offset):
+def free_way(lumen, g, safe, offset):
     """How far a point may move before what the wall keeps from it, ``offset``, is used up.
 
     ``safe`` is for a point without one. Past an open end, where it is less than the gap, it may be
     less than the offset, too, of a point that is clear: there the slope of the gap says how far.
     """
-    return max(safe - offset, min((g - offset) / STEEPEST, safe))
+    steepest, steep = slopes(lumen.sheet)
+    if steep > 1.0 and safe * steep >= EXACTLY * g:
+        return (g - offset) / steep
+    return max(safe - offset, min((g - offset) / steepest, safe))
 
 
 @kernel
@@ -35,7 +38,7 @@ def travel(lumen, x, dx, offset, known, jet, limit):
     length = pace(lumen.moving) * norm(dx)
     if not (x[0] == known[0] and x[1] == known[1] and x[2] == known[2]):
         query(lumen, x, known, jet)
-    start = free_way(jet[0], known[3], offset)
+    start = free_way(lumen, jet[0], known[3], offset)
     share = 0.0
     free = start
     for _ in range(HOPS):
@@ -44,7 +47,7 @@ def travel(lumen, x, dx, offset, known, jet, limit):
             return limit
         here = combine(1.0, x, share, dx)
         g, _, _, safe = gap_value(lumen, here[0], here[1], here[2])
-        free = free_way(g, safe, offset)
+        free = free_way(lumen, g, safe, offset)
         if free < CLOSEST * start:
             return share
     return share

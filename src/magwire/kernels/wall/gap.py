@@ -33,7 +33,9 @@ from magwire.kernels.centreline import (
 from magwire.kernels.vectors import combine, dot, norm, scale, sub
 from magwire.kernels.wall.motion import at_rest, moved_jet
 from magwire.kernels.wall.rim import mouth, mouth_jet, safe_distance
+from magwire.kernels.wall.sheet import STEEPEST, sheet_jet, sheet_value
 
+BALLS_STEEPEST = 10.0  # largest slope past an open end, where the radius changes by 0.95
 FLATTEST = 1e-4  # conditioning guard: smallest |F'|, reached at a centre of curvature
 
 
@@ -129,8 +131,8 @@ def seed_at(lumen, index, offset):
 
 
 @kernel
-def gap_value(lumen, x, y, z):
-    """Gap of a point.
+def balls_value(lumen, x, y, z):
+    """Gap of a point to a wall of balls.
 
     Returns
     -------
@@ -145,7 +147,6 @@ def gap_value(lumen, x, y, z):
         free space outside it the point may come to lie in the solid, but not through it. In a lumen
         that moves it is the way of the tissue that is at the point; see ``wall.motion.pace``.
     """
-    x, y, z = at_rest(lumen.moving, x, y, z)
     index, offset, safe = first_seed(lumen, x, y, z)
     if index < 0:
         return inf, nan, -1, safe
@@ -224,13 +225,13 @@ def blend_jets(weight, curvature, n, h, n2, h2):
 
 
 @kernel
-def gap_jet(lumen, x, y, z):
-    """Gap of a point with its gradient and Hessian.
+def balls_jet(lumen, x, y, z):
+    """Gap of a point to a wall of balls with its gradient and Hessian.
 
     Returns
     -------
     g, S, branch, safe
-        As of ``gap_value``.
+        As of ``balls_value``.
     n
         Gradient, 3 numbers; zero where g = +inf.
     h
@@ -238,8 +239,6 @@ def gap_jet(lumen, x, y, z):
     """
     none = (0.0, 0.0, 0.0)
     flat = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    px, py, pz = x, y, z
-    x, y, z = at_rest(lumen.moving, x, y, z)
     index, offset, safe = first_seed(lumen, x, y, z)
     if index < 0:
         return inf, nan, -1, safe, none, flat
@@ -268,8 +267,59 @@ def gap_jet(lumen, x, y, z):
             new_g, new_s, new_side, new_safe = -inf, nan, 0, -inf
     if free_branch >= 0 and g <= -lumen.margin:
         return inf, free_s, free_branch, min(free_safe, lumen.margin), none, flat
-    n, h = moved_jet(lumen.moving, px, py, pz, n, h)
     return g, s, branch, safe, n, h
+
+
+# A lumen whose wall is of triangles holds it in a tuple, which is empty where there is none. The
+# length of a tuple is part of its type: kernels for walls of balls are compiled without triangles.
+
+
+@kernel
+def wall_value(sheets, lumen, x, y, z):
+    """See ``gap_value``; ``sheets`` as of ``LumenArrays``."""
+    if len(sheets) == 0:
+        return balls_value(lumen, x, y, z)
+    else:
+        g, safe = sheet_value(sheets[0], x, y, z)
+        return g, nan, -1, safe
+
+
+@kernel
+def wall_jets(sheets, lumen, x, y, z):
+    """See ``gap_jet``; ``sheets`` as of ``LumenArrays``."""
+    if len(sheets) == 0:
+        return balls_jet(lumen, x, y, z)
+    else:
+        g, safe, n, h = sheet_jet(sheets[0], x, y, z)
+        return g, nan, -1, safe, n, h
+
+
+@kernel
+def gap_value(lumen, x, y, z):
+    """Gap of a point; as of ``balls_value``. At a wall of triangles S is nan and branch -1.
+
+    Of a wall that moves it is that of where the tissue at the point is at rest.
+    """
+    x, y, z = at_rest(lumen.moving, x, y, z)
+    return wall_value(lumen.sheet, lumen, x, y, z)
+
+
+@kernel
+def gap_jet(lumen, x, y, z):
+    """Gap of a point with its gradient and Hessian; as of ``balls_jet`` and ``gap_value``."""
+    u, v, w = at_rest(lumen.moving, x, y, z)
+    g, s, branch, safe, n, h = wall_jets(lumen.sheet, lumen, u, v, w)
+    n, h = moved_jet(lumen.moving, x, y, z, n, h)
+    return g, s, branch, safe, n, h
+
+
+@kernel
+def slopes(sheets):
+    """Largest slope of the gap, past an open end and elsewhere."""
+    if len(sheets) == 0:
+        return BALLS_STEEPEST, 1.0
+    else:
+        return STEEPEST * sheets[0].steep, sheets[0].steep
 
 
 @kernel
@@ -289,6 +339,18 @@ def hessian_many(lumen, points, out_g, out_branch, out_h):
         g, _, branch, _, _, h = gap_jet(lumen, points[i, 0], points[i, 1], points[i, 2])
         out_g[i] = g
         out_branch[i] = int32(branch)
+        for c in range(6):
+            out_h[i, c] = h[c]
+
+
+@kernel
+def jets_many(lumen, points, out_g, out_n, out_h):
+    """The same with its gradient, shape [n, 3]."""
+    for i in range(len(points)):
+        g, _, _, _, n, h = gap_jet(lumen, points[i, 0], points[i, 1], points[i, 2])
+        out_g[i] = g
+        for c in range(3):
+            out_n[i, c] = n[c]
         for c in range(6):
             out_h[i, c] = h[c]
 

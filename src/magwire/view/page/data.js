@@ -41,12 +41,18 @@
       }
       return made;
     });
+    const surface = run.surface && {
+      positions: await unpack(run.surface.positions),
+      indices: await unpack(run.surface.indices),
+      rings: await unpack(run.surface.rings),
+    };
     const width = 3 * run.wire.magnet.length;
     const row = (name, k) => arrays[name].subarray(width * k, width * (k + 1));
     return {
       ...run,
       arrays,
       branches,
+      surface,
       count: arrays.time.length,
       points: (k) => row("position", k),
       forces: (k) => row("contact_force", k),

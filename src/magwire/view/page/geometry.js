@@ -79,7 +79,7 @@
   function wall(branches) {
     const most = Math.floor(MOST_RINGS / Math.max(branches.length, 1));
     const fine = branches.map((branch) => finer(branch, Math.max(most, 24)));
-    const mesh = { positions: [], normals: [], indices: [], rings: [], sides: SIDES };
+    const mesh = { positions: [], normals: [], indices: [], rings: [] };
     fine.forEach((branch, which) => {
       const offset = mesh.positions.length / 3;
       const { positions, normals } = rings(branch.points, branch.radii, SIDES);
@@ -100,12 +100,44 @@
         mesh.indices.push(a + offset, b + offset, c + offset);
       }
       branch.points.forEach((centre, ring) =>
-        mesh.rings.push({ centre, radius: branch.radii[ring], first: offset + ring * SIDES, begins: ring === 0 }),
+        mesh.rings.push({
+          centre,
+          radius: branch.radii[ring],
+          far: 1.3 * branch.radii[ring],
+          first: offset + ring * SIDES,
+          count: SIDES,
+          begins: ring === 0,
+        }),
       );
     });
     mesh.positions = new Float32Array(mesh.positions);
     mesh.normals = new Float32Array(mesh.normals);
     mesh.indices = new Uint32Array(mesh.indices);
+    mesh.areas = areas(mesh);
+    return mesh;
+  }
+
+  // A wall that is a surface: its corners, grouped by the point of the centrelines that each is nearest to,
+  // are in the order of these groups. rings: x, y, z and radius there, how many corners are in the group,
+  // how far the farthest is, and whether a branch begins.
+  function surface({ positions, indices, rings }) {
+    const mesh = { positions, indices: Uint32Array.from(indices), rings: [] };
+    for (let k = 0, first = 0; k < rings.length; k += 7) {
+      const [x, y, z, radius, count, far, begins] = rings.subarray(k, k + 7);
+      mesh.rings.push({ centre: [x, y, z], radius, far, first, count, begins: begins > 0 });
+      first += count;
+    }
+    mesh.normals = new Float32Array(positions.length);
+    for (let k = 0; k < mesh.indices.length; k += 3) {
+      const corners = mesh.indices.subarray(k, k + 3);
+      const [a, b, c] = [...corners].map((v) => at(positions, v));
+      const across = cross(sub(b, a), sub(c, a));
+      for (const v of corners) for (let i = 0; i < 3; i++) mesh.normals[3 * v + i] += across[i];
+    }
+    for (let v = 0; v < positions.length / 3; v++) {
+      const size = norm(at(mesh.normals, v)) || 1;
+      for (let i = 0; i < 3; i++) mesh.normals[3 * v + i] /= size;
+    }
     mesh.areas = areas(mesh);
     return mesh;
   }
@@ -133,10 +165,10 @@
       const [x, y, z] = sub(at(points, node), scale(force, skin / size));
       const near = [];
       let sum = 0;
-      for (const { centre, radius, first } of mesh.rings) {
+      for (const { centre, radius, far, first, count } of mesh.rings) {
         const reach = spread * radius;
-        if (Math.hypot(centre[0] - x, centre[1] - y, centre[2] - z) > 1.3 * radius + reach) continue;
-        for (let v = first; v < first + mesh.sides; v++) {
+        if (Math.hypot(centre[0] - x, centre[1] - y, centre[2] - z) > far + reach) continue;
+        for (let v = first; v < first + count; v++) {
           const d = Math.hypot(mesh.positions[3 * v] - x, mesh.positions[3 * v + 1] - y, mesh.positions[3 * v + 2] - z);
           if (d >= reach || mesh.areas[v] === 0) continue;
           const part = 1 - (d / reach) ** 2;
@@ -208,5 +240,5 @@
     }
   }
 
-  parts.geometry = { wall, pressure, Solid, tangents };
+  parts.geometry = { wall, surface, pressure, Solid, tangents };
 })((window.magwireParts ??= {}));

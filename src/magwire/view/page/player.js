@@ -61,7 +61,7 @@
           const points = run.points(k);
           for (let v = 0; v < points.length; v += 3) path.push([points[v], points[v + 1], points[v + 2]]);
         }
-      scene.setWorld({ branches: run.branches, wire: run.wire, path });
+      scene.setWorld({ branches: run.branches, wire: run.wire, path, surface: run.surface });
       scene.afterwards = () => this.decorate(scene, bar, axes);
       return { run, scene, readings };
     }

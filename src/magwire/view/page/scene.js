@@ -56,11 +56,12 @@
     }
 
     // branches: [{points: [[x, y, z], ...], radii}]; wire: {radius, onAxis, magnet: [flags]}, where onAxis
-    // says that the wall holds the wire's centreline; path: all there is to see in open space [m].
-    setWorld({ branches, wire, path }) {
+    // says that the wall holds the wire's centreline; path: all there is to see in open space [m]; surface:
+    // the wall's corners, triangles and rings, where it is not of balls.
+    setWorld({ branches, wire, path, surface }) {
       this.wire = wire;
       this.branches = branches;
-      this.mesh = parts.geometry.wall(branches);
+      this.mesh = surface ? parts.geometry.surface(surface) : parts.geometry.wall(branches);
       this.painter.setWall(this.mesh);
       const points = branches.length ? branches.flatMap((branch) => branch.points) : path;
       const radii = branches.length ? branches.flatMap((branch) => branch.radii) : path.map(() => wire.radius);

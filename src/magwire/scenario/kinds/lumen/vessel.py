@@ -15,10 +15,13 @@ from magwire.scenario.kinds.lumen import LumenTable, unknown_target
 from magwire.scenario.kinds.lumen.points import unit_faults
 from magwire.scenario.measured import Measured, Numbers
 from magwire.scenario.quantity import Quantity, Row, Rows, at_least_one
+from magwire.scenario.table import preset
+from magwire.scenario.triangles import Triangles, TrianglesText
 from magwire.units import parse, write
 
 if TYPE_CHECKING:
     from magwire.lumen import Lumen
+    from magwire.lumen.sheet import Sheet
     from magwire.vessel import Vessel
 
 BALL = Row((Quantity("length"),) * 3 + (Quantity("length", "positive"),))
@@ -46,6 +49,10 @@ class VesselLumen(LumenTable):
     shape: Literal["vessel"]
     target: str
     branches: Annotated[dict[str, Balls], at_least_one("branch")]
+    wall: Literal["balls", "surface"] = preset("balls")
+    surface: Annotated[Triangles, TrianglesText()] | None = Field(
+        default=None, description="the wall's triangles, in place of balls"
+    )
     file: str | list[str] | None = _note("centrelines or a surface, in place of branches")
     units: str | None = _note("unit of the numbers in the file, unless it states one")
     radius: str | None = _note("array of the file that holds the radius, or one radius for all")
@@ -68,7 +75,9 @@ class VesselLumen(LumenTable):
                 table,
                 [f"Input lumen.{key} needs lumen.file next to it; remove it." for key in keys],
             )
-        rest = {key: value for key, value in table.items() if key not in (*KEYS, "branches")}
+        rest = {
+            key: value for key, value in table.items() if key not in (*KEYS, "branches", "surface")
+        }
         rest["shape"] = "vessel"
         found = _read(table, rest, folder)
         return found if found.faults else found._replace(reach=_reach(found.table or {}))
@@ -79,15 +88,23 @@ class VesselLumen(LumenTable):
         return float(self.branches[self.target].values[:, 3].min())
 
     def clashes(self) -> Faults:
-        """The target is one of the outlets."""
+        """The target is one of the outlets, and a wall that is a surface has one."""
         yield from unknown_target(self.target, self.branches)
+        if (self.wall == "surface") != (self.surface is not None):
+            yield (
+                "Input lumen.wall must be 'surface' where there is a lumen.surface, and nowhere "
+                f"else; received '{self.wall}'."
+            )
 
     def without_entry(self) -> Lumen:
         """The lumen as a model, but for its entry."""
         from magwire.lumen import Lumen
 
         tubes = {name: rows.values for name, rows in self.branches.items()}
-        return Lumen.ways(tubes, target=self.target)
+        lumen = Lumen.ways(tubes, target=self.target)
+        if self.surface is None:
+            return lumen
+        return lumen.with_surface(self.surface.points, self.surface.triangles)
 
 
 def rows_of(vessel: Vessel) -> dict[str, list[list[str]]]:
@@ -95,12 +112,18 @@ def rows_of(vessel: Vessel) -> dict[str, list[list[str]]]:
     return {name: _rows(balls) for name, balls in vessel.balls.items()}
 
 
+def surface_of(sheet: Sheet) -> dict[str, str]:
+    """A wall of triangles as a scenario's file has it."""
+    return TrianglesText().write(Triangles(sheet.points, sheet.triangles))
+
+
 def _read(table: dict[str, Any], rest: dict[str, Any], folder: Path) -> Inlined:
     """The rest of a table with the tubes of its file."""
     unread = (("lumen", "branches"), ("lumen", "target"), ("feed", "distance"))
     options, faults = _options(table)
-    if "branches" in table:
-        faults.append("Input lumen.branches cannot stand next to lumen.file; remove one of them.")
+    for key in ("branches", "surface"):
+        if key in table:
+            faults.append(f"Input lumen.{key} cannot stand next to lumen.file; remove one of them.")
     given = table["file"] if isinstance(table["file"], list) else [table["file"]]
     if not given or not all(isinstance(name, str) for name in given):
         faults.append(
@@ -115,13 +138,17 @@ def _read(table: dict[str, Any], rest: dict[str, Any], folder: Path) -> Inlined:
     try:
         paths = [folder / name for name in given]
         vessel = Vessel.read(paths[0] if len(paths) == 1 else paths, **options)
-        name = vessel.lumen(target).target
-        notes = vessel.record()
+        wall: Literal["balls", "surface"] = "surface" if rest.get("wall") == "surface" else "balls"
+        lumen = vessel.lumen(target, wall=wall)
+        notes = vessel.record(wall)
     except MagwireError as error:
         text = str(error).replace(" of Lumen.read", "").replace("Input ", "Input lumen.", 1)
         return Inlined(rest, [text], unread)
     tubes = {outlet: _measured(balls) for outlet, balls in vessel.balls.items()}
-    return Inlined({**rest, "target": name, "branches": tubes}, [], notes=notes)
+    made = {**rest, "target": lumen.target, "branches": tubes}
+    if lumen.sheet is not None:
+        made["surface"] = Triangles(lumen.sheet.points, lumen.sheet.triangles)
+    return Inlined(made, [], notes=notes)
 
 
 def _measured(balls: NDArray[np.float64]) -> Measured:
