@@ -15,6 +15,7 @@ from matplotlib.ticker import MaxNLocator
 
 from magwire.files import successor
 from magwire.plot import curves, friction, loads, shapes, style
+from magwire.plot.few import few
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -48,8 +49,10 @@ def draw(data: xr.Dataset, passive: xr.Dataset | None = None) -> Figure:
         Two columns wide (180 mm): shapes of the wire at several feeds, normalised tip force, field
         components and clearance against normalised push; below, where along the lumen the wall is
         pressed, and the forces on tip and wire and at the guide; where there is friction, a row
-        with what it takes, and with how far the wire slid or the twists of guide and tip.
+        with what it takes, and with how far the wire slid or the twists of guide and tip. Of a run
+        of very many records those are drawn that make the same picture.
     """
+    data, passive = few(data), None if passive is None else few(passive)
     with mpl.rc_context(style.RC):
         aspect = shapes.aspect(data)
         top = COLUMN / aspect + AROUND

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from magwire.pieces import at, largest, pieces
 from magwire.units import show
 
 if TYPE_CHECKING:
@@ -72,7 +73,7 @@ def gains(steered: Result, passive: Result) -> list[str]:
         before, after = (1e3 * float(getattr(run, name)) for run in (passive, steered))
         return f"{before:.3g} mN to " + (f"{after:.3g} mN" if after else "none")
 
-    fed = [float(run.feed.max(initial=0.0)) for run in (steered, passive)]
+    fed = [largest(run.dataset, lambda feed: feed, "feed") for run in (steered, passive)]
     far = f"; over {1e3 * fed[0]:.4g} mm of {1e3 * fed[1]:.4g}" if fed[0] < fed[1] else ""
     rows = {
         "gained, tip": f"peak force from {change('max_tip_force')}, "
@@ -87,7 +88,8 @@ def gains(steered: Result, passive: Result) -> list[str]:
 
 def _course(result: Result) -> dict[str, str]:
     """How far it went, and by what kind of motion."""
-    fed = show(float(result.feed[-1]), "length") if result.feed.size else "nothing"
+    records = result.dataset.sizes["time"]
+    fed = show(float(at(result.dataset, "feed", -1)), "length") if records else "nothing"
     rows = {
         "inserted": f"{fed} in {result.steps} steps, {_simulated(result):.4g} s simulated",
         "motion": result.motion,
@@ -97,12 +99,16 @@ def _course(result: Result) -> dict[str, str]:
         rows["largest move"] = (
             f"{_short(result.largest_move)} beyond what was inserted, between two records"
         )
-    unstable = np.flatnonzero(~result.stable)
+    unstable, first = 0, float("nan")
+    for stable, feed in pieces(result.dataset, "stable", "feed"):
+        not_so = np.flatnonzero(~(stable > 0.0))
+        if not_so.size and not unstable:
+            first = float(feed[not_so[0]])
+        unstable += not_so.size
     rows["stable"] = "at every record"
-    if unstable.size:
-        first = show(float(result.feed[unstable[0]]), "length")
+    if unstable:
         rows["stable"] = (
-            f"not at {unstable.size} of {result.feed.size} records, first at a feed of {first}"
+            f"not at {unstable} of {records} records, first at a feed of {show(first, 'length')}"
         )
     return rows
 
@@ -169,10 +175,11 @@ def _rubbing(result: Result) -> dict[str, str]:
     """What friction took, and how far the tip turned behind the guide."""
     rows = {}
     if result.work_of_friction > 0.0:
-        slid = _short(float(result.slip.max(initial=0.0)))
+        slid = _short(largest(result.dataset, lambda slip: slip, "slip"))
         rows["work of friction"] = f"{result.work_of_friction:.4g} J, over up to {slid} of slip"
-    if result.guide_twist.size and np.ptp(result.guide_twist) > TURNED:
-        last = np.degrees([result.guide_twist[-1], result.tip_twist[-1]])
+    turns = [(twist.min(), twist.max()) for (twist,) in pieces(result.dataset, "guide_twist")]
+    if turns and np.ptp(turns) > TURNED:
+        last = np.degrees([at(result.dataset, f"{end}_twist", -1) for end in ("guide", "tip")])
         rows["twist"] = (
             f"guide {last[0]:.4g} deg, tip {last[1]:.4g} deg at the end; "
             f"up to {np.degrees(result.largest_lag):.3g} deg apart"
@@ -189,9 +196,12 @@ def _steering(result: Result) -> dict[str, str]:
         + ("" if np.isnan(scale) else f", normalised {result.peak_field / scale:.4g}"),
     }
     if not np.isnan(result.largest_tip_departure):
-        at = float(result.feed[np.nanargmax(result.tip_departure)])
-        away = _short(result.largest_tip_departure)
-        rows["model error"] = f"{away} at most at the tip, at a feed of {show(at, 'length')}"
+        most = result.largest_tip_departure
+        courses = pieces(result.dataset, "tip_departure", "feed")
+        fed = next(feed[away == most][0] for away, feed in courses if np.any(away == most))
+        rows["model error"] = (
+            f"{_short(most)} at most at the tip, at a feed of {show(float(fed), 'length')}"
+        )
     return rows
 
 
@@ -212,4 +222,4 @@ def _short(length: float) -> str:
 
 def _simulated(result: Result) -> float:
     """Simulated time at the end [s]."""
-    return float(result.time[-1]) if result.time.size else 0.0
+    return float(at(result.dataset, "time", -1)) if result.dataset.sizes["time"] else 0.0

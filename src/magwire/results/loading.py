@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,10 +26,15 @@ TEXTS = ("status", "message", "scenario")
 NUMBERS = (*running_attributes(None), "length_scale", "force_scale", "field_scale")
 PACKED = 1000
 """What compression makes smaller at most, over what is stored."""
+WHOLE = 2**24
+"""Size of a file up to which it is read whole [bytes]."""
 
 
 def load(path: Path) -> xr.Dataset:
-    """The variables and attributes of a result file, all in memory.
+    """The variables and attributes of a result file.
+
+    All of a small one is in memory, and of one with compressed variables, which cannot be checked
+    unread. Those of a large one are read as they are asked for.
 
     Raises
     ------
@@ -45,7 +51,14 @@ def load(path: Path) -> xr.Dataset:
             raise OSError
         with h5py.File(path) as file:
             fault = _damage(file)
-        if not fault:
+            large = path.stat().st_size > WHOLE
+            large = large and all(file[name].compression is None for name in file)
+            if large and not fault:
+                fault = _gap(file, path.stat().st_size)
+        if not fault and large:
+            dataset = xr.open_dataset(path, engine="h5netcdf")
+            fault = _misfit(dataset)
+        elif not fault:
             dataset = xr.load_dataset(path, engine="h5netcdf")
             fault = _misfit(dataset)
     except Exception as error:  # a damaged file may raise anything in there
@@ -72,6 +85,22 @@ def _damage(file: Any) -> str:
             stored = held.id.get_storage_size() * (1 if held.compression is None else PACKED)
             if held.size * held.dtype.itemsize > stored:
                 return f"is damaged: {name} claims {held.size} numbers, more than are stored"
+    return ""
+
+
+def _gap(file: Any, size: int) -> str:
+    """What of a file's numbers is not in it, found without reading them; "" if all are."""
+    for name in file:
+        held, parts = file[name], []
+        if held.chunks is None:
+            parts.append((held.id.get_offset() or 0, held.id.get_storage_size()))
+        else:
+            held.id.chunk_iter(lambda chunk, to=parts: to.append((chunk.byte_offset, chunk.size)))
+            shape = zip(held.shape, held.chunks, strict=True)
+            if len(parts) < math.prod(-(-rows // of) for rows, of in shape):
+                return f"is damaged: it lacks numbers of {name}"
+        if any(begin + length > size for begin, length in parts):
+            return f"is damaged: {name} is not all in it"
     return ""
 
 

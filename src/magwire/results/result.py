@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from magwire.errors import ResultError, offering, positive, refuse
 from magwire.files import successor
+from magwire.pieces import at, largest, piece, pieces, spans
 from magwire.results import disk, forces, loading
 from magwire.results.older import completed
 from magwire.units import show
@@ -47,7 +48,11 @@ class Result:
 
     @classmethod
     def load(cls, path: str | Path) -> Result:
-        """Read a result file; all of it, so that the file is free afterwards.
+        """Read a result file.
+
+        One of up to 16 MB is read whole, and free afterwards. A larger one stays open, and its
+        variables are read as they are asked for: a long run need not fit into memory.
+        ``result.dataset.load()`` reads all, ``result.dataset.close()`` lets go of the file.
 
         Parameters
         ----------
@@ -167,14 +172,12 @@ class Result:
 
         It is the distance that the scenario's wall convention counts (P-12).
         """
-        found = [
-            self._number("smallest_clearance"),
-            *self.clearance.ravel(),
-            *self.dataset["clearance_midpoint"].values,
-            *self.dataset.get("clearance_along", []),
-        ]
-        finite = np.array(found)[np.isfinite(found)]
-        return float(finite.min()) if finite.size else float("nan")
+        names = ("clearance", "clearance_midpoint", "clearance_along")
+        known = [name for name in names if name in self.dataset]
+        found = [self._number("smallest_clearance")]
+        for values in pieces(self.dataset, *known):
+            found += [float(np.min(v, initial=np.inf, where=np.isfinite(v))) for v in values]
+        return min(filter(np.isfinite, found), default=float("nan"))
 
     @property
     def first_contact(self) -> float | None:
@@ -228,23 +231,26 @@ class Result:
     @property
     def max_guide_torque(self) -> float:
         """Largest size of the torque at the guide over all records [N m]; NaN if unknown."""
-        return float(np.max(np.abs(self.guide_torque), initial=0.0))
+        return largest(self.dataset, np.abs, "guide_torque")
 
     @property
     def largest_friction(self) -> float:
         """Largest friction of the wall on the wire over all records, sizes summed over it [N]."""
-        sizes = np.linalg.norm(self.friction_force, axis=2).sum(axis=1)
-        return float(np.max(sizes, initial=0.0))
+
+        def summed(force: Array) -> Array:
+            return np.asarray(np.linalg.norm(force, axis=2).sum(axis=1))
+
+        return largest(self.dataset, summed, "friction_force")
 
     @property
     def work_of_friction(self) -> float:
         """What friction took in all [J]; 0 without friction."""
-        return float(np.max(self.friction_work, initial=0.0))
+        return self._largest("friction_work")
 
     @property
     def largest_lag(self) -> float:
         """Largest difference of the twists of guide and tip, over all records [rad]."""
-        return float(np.max(np.abs(self.guide_twist - self.tip_twist), initial=0.0))
+        return largest(self.dataset, lambda a, b: np.abs(a - b), "guide_twist", "tip_twist")
 
     @property
     def longest_contact(self) -> float:
@@ -268,12 +274,16 @@ class Result:
         nodes = self.dataset.sizes["node"]
         whole = self._number("length_scale")
         wire = forces.Layout(whole, nodes, (np.nan, np.nan), np.zeros((0, 4)))
-        return forces.largest_over(wire, forces.sizes(self.contact_force), min(length, whole))
+        found = [
+            forces.largest_over(wire, forces.sizes(force), min(length, whole))
+            for (force,) in pieces(self.dataset, "contact_force")
+        ]
+        return np.concatenate(found or [np.zeros(0)])
 
     @property
     def largest_tip_offset(self) -> float:
         """Largest distance of the tip from the centreline over all records [m]."""
-        return float(np.max(self.tip_offset, initial=0.0))
+        return self._largest("tip_offset")
 
     @property
     def largest_tip_departure(self) -> float:
@@ -281,8 +291,12 @@ class Result:
 
         NaN if nobody steered, or the navigator has no model.
         """
-        known = self.tip_departure[np.isfinite(self.tip_departure)]
-        return float(known.max()) if known.size else float("nan")
+        known = [
+            float(away[np.isfinite(away)].max())
+            for (away,) in pieces(self.dataset, "tip_departure")
+            if np.isfinite(away).any()
+        ]
+        return max(known, default=float("nan"))
 
     @property
     def largest_move(self) -> float:
@@ -291,13 +305,18 @@ class Result:
         In quasi-static motion much of it in one go is a wire that snaps: where it ends is one
         equilibrium of several, and only dynamic motion tells which a wire finds.
         """
-        moves = np.linalg.norm(np.diff(self.position, axis=0), axis=2).max(axis=1, initial=0.0)
-        return float(np.max(moves - np.abs(np.diff(self.feed)), initial=0.0))
+        found = 0.0
+        for records in spans(self.dataset, "position"):
+            on = slice(records.start, records.stop + 1)  # a move is between two records
+            position, feed = (piece(self.dataset, name, on) for name in ("position", "feed"))
+            moves = np.linalg.norm(np.diff(position, axis=0), axis=2).max(axis=1, initial=0.0)
+            found = max(found, float(np.max(moves - np.abs(np.diff(feed)), initial=0.0)))
+        return found
 
     @property
     def peak_field(self) -> float:
         """Largest magnitude of the flux density at the tip [T]."""
-        return float(np.max(np.linalg.norm(self.field, axis=1), initial=0.0))
+        return largest(self.dataset, lambda field: np.linalg.norm(field, axis=1), "field")
 
     @property
     def force_scale(self) -> float:
@@ -446,10 +465,11 @@ class Result:
     def __repr__(self) -> str:
         title = self.dataset.attrs.get("title", "")
         of = f" of {title!r}" if title else ""
-        words = f"<Result{of}: {self.status}, {self.time.size} records"
-        if self.time.size:
-            words += f", {show(float(self.feed[-1]), 'length')} inserted in "
-            words += f"{show(float(self.time[-1]), 'time')}; peak field "
+        records = self.dataset.sizes["time"]
+        words = f"<Result{of}: {self.status}, {records} records"
+        if records:
+            words += f", {show(float(at(self.dataset, 'feed', -1)), 'length')} inserted in "
+            words += f"{show(float(at(self.dataset, 'time', -1)), 'time')}; peak field "
             words += f"{show(self.peak_field, 'flux_density')}, largest tip force "
             words += f"{show(self.max_tip_force, 'force')}"
         return f"{words}>"
@@ -459,7 +479,7 @@ class Result:
 
     def _largest(self, name: str) -> float:
         """Largest value over all records, no less than zero; NaN if unknown."""
-        return float(np.max(self._array(name), initial=0.0))
+        return largest(self.dataset, lambda values: values, name)
 
     def _number(self, name: str) -> float:
         value: Any = self.dataset.attrs[name]

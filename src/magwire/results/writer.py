@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import errno
+import math
 import os
+import shutil
 import time
+from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
@@ -15,7 +18,7 @@ import numpy as np
 import magwire
 from magwire.engine.record import Record, RunInfo
 from magwire.errors import ResultError
-from magwire.files import claimed
+from magwire.files import claimed, draft_of
 from magwire.interrupt import Terminated
 from magwire.results import disk
 from magwire.results.contract import (
@@ -43,14 +46,20 @@ FLUSH_SECONDS = 2.0
 FLUSH_SHARE = 0.03
 """Share of the wall time that flushing may take: flushes of a very large file come less often."""
 CHUNK_BYTES = 2**16
+MOST_WAITING = 2**22
+"""Memory of the records that wait for a flush, about [bytes]."""
+RECORD_BYTES = 4096
+"""What a record takes besides its numbers, about [bytes]."""
 
 
 class Writer:
     """Takes the records of a run and makes its result.
 
-    Between flushes records wait in memory. A flush appends them to a copy of the file, which then
-    takes the place of the file in one step: a process that is killed at any time leaves a file that
-    is complete up to its last flush, and others may read it while the run goes. As a context
+    Between flushes records wait in memory; where there are too many of them, as the file is large
+    and flushes come less often, in a draft of the file. A flush appends them to a copy of the file,
+    which then takes the place of the file in one step: a process that is killed at any time leaves
+    a file that is complete up to its last flush, and others may read it while the run goes. As a
+    context
     manager the writer closes itself when the block is left by an exception: "interrupted" after
     Ctrl-C, "terminated" when the process is told to end, "failed" else. No other process may write
     the same file meanwhile.
@@ -80,8 +89,12 @@ class Writer:
         self._last: Record | None = None
         self._written = 0
         self._due = 0.0
+        self._draft: Path | None = None
+        self._flushed: tuple[int, Record | None] = (0, None)
         self._claim = ExitStack()
         self._attributes = opening_attributes(info, self.layout, magwire.__version__)
+        row = sum(v.dtype.itemsize * self._numbers(v) for v in VARIABLES.values())
+        self._most = max(1, MOST_WAITING // (row + RECORD_BYTES))
         self._attributes |= {"status": "running", "message": ""} | running_attributes(None)
         if self.path is not None:
             self._begin(self.path)
@@ -90,21 +103,19 @@ class Writer:
         """Take a record; its arrays must not be changed afterwards."""
         self._last = record
         self._waiting.append(record)
-        if self.path is not None and time.monotonic() >= self._due:
+        if self.path is None:
+            return
+        if time.monotonic() >= self._due:
             self.flush()
+        elif len(self._waiting) >= self._most:
+            self._try(self._put_aside)
 
     def flush(self) -> None:
         """Bring what waits in memory into the file, so that it survives the end of the process."""
-        if self.path is None or self.closed or not self._waiting:
+        if self.path is None or self.closed or not (self._waiting or self._draft):
             return
         begin = time.monotonic()
-        try:
-            self._commit(self.path)
-        except PermissionError:
-            # On Windows, while others read the file. Nothing is lost: the next flush takes it all.
-            pass
-        except OSError as error:
-            raise _unwritable(self.path, error) from None
+        self._try(self._commit)
         end = time.monotonic()
         self._due = end + max(FLUSH_SECONDS, (end - begin) / FLUSH_SHARE)
 
@@ -129,6 +140,7 @@ class Writer:
             except OSError as error:
                 raise _unwritable(self.path, error) from None
             finally:
+                self._drop_draft()
                 self._claim.close()
 
     def result(self) -> Result:
@@ -204,8 +216,27 @@ class Writer:
             self._claim.close()
             raise _unwritable(path, error) from None
 
+    def _try(self, act: Callable[[Path], None]) -> None:
+        """Write while the run goes."""
+        if self.path is None:
+            return
+        try:
+            act(self.path)
+        except PermissionError:
+            # On Windows, while others read the file. Nothing is lost: the next flush takes it all.
+            pass
+        except OSError as error:
+            raise _unwritable(self.path, error) from None
+
     def _commit(self, path: Path, **attributes: str) -> None:
-        """Add what waits, and these attributes, to the file: all of it or nothing.
+        """Add what waits, and these attributes, to the file: all of it or nothing."""
+        self._put_aside(path, **attributes)
+        if self._draft is not None:
+            self._draft.replace(path)
+        self._draft, self._flushed = None, (self._written, self._last)
+
+    def _put_aside(self, path: Path, **attributes: str) -> None:
+        """Add what waits to a draft that is to take the place of the file.
 
         Rows are added through h5py, as all that is special about NetCDF-4 is in the file by now.
         """
@@ -219,9 +250,29 @@ class Writer:
                 file.attrs.modify(name, value)
             file.attrs.update(attributes)
 
-        disk.revise(path, add)
+        try:
+            if self._draft is None:
+                self._draft = draft_of(path)
+                shutil.copyfile(path, self._draft)
+            disk.change(self._draft, add)
+        except BaseException:
+            # Rows that were put aside are lost with the draft, and those that follow would not fit.
+            self._drop_draft()
+            if self._written > self._flushed[0]:
+                self._waiting.clear()
+                self._written, self._last = self._flushed
+            raise
         self._written = last
         self._waiting.clear()
+
+    def _drop_draft(self) -> None:
+        if self._draft is not None:
+            self._draft.unlink(missing_ok=True)
+            self._draft = None
+
+    def _numbers(self, variable: Variable | Derived) -> int:
+        """How many numbers a record has of a variable."""
+        return math.prod(self.sizes[dim] for dim in variable.dims[1:])
 
     def _lay_out(self, file: Any) -> None:
         """All that is known from the start, and no records."""

@@ -109,7 +109,7 @@ def _report(
     if passive is not None:
         for line in summary.gains(result, passive):
             say(line)
-    if steered and result.time.size:
+    if steered and result.dataset.sizes["time"]:
         from magwire.scenario import schedule_of, write_schedule
 
         with writing_to(folder):
