@@ -93,7 +93,7 @@ def draw(data: xr.Dataset, passive: xr.Dataset | None = None) -> Figure:
             panel.xaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
             panel.set_xlim(0.0, float(push.max(initial=0.0)) or 1.0)
         figure.draw_without_rendering()  # settles the layout, once for all formats
-        figure.set_layout_engine("none")
+        figure.set_layout_engine(None)  # a placeholder would have each format drawn twice
         _round_places(figure)
     return figure
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from matplotlib.patches import Polygon
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from magwire.plot import style
 
@@ -206,6 +205,8 @@ def leaves(part: Branch, before: list[Branch]) -> int:
     """Index of the point after which a path is not one with those before it any more."""
     if not before:
         return 0
+    from scipy.spatial import KDTree
+
     points = np.concatenate([other.points for other in before])
     radius = np.concatenate([other.radius for other in before])
     away, nearest = KDTree(points).query(part.points)
