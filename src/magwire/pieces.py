@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,74 @@ Array = NDArray[np.float64]
 
 BYTES = 2**22
 """Memory of a piece of one variable."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """The numbers of a variable, with the words of an xarray variable.
+
+    Attributes
+    ----------
+    dims
+        Names of the dimensions.
+    data
+        An array, or what gives one when it is indexed.
+    attrs
+        Units and other words.
+    """
+
+    dims: tuple[str, ...]
+    data: Any
+    attrs: Mapping[str, Any]
+
+    @property
+    def values(self) -> NDArray[Any]:
+        """All of it, in memory."""
+        return np.asarray(self.data)
+
+    @property
+    def nbytes(self) -> int:
+        """Size of the numbers [bytes]."""
+        return int(self.data.nbytes)
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """Type of the numbers."""
+        found: np.dtype[Any] = self.data.dtype
+        return found
+
+    def __getitem__(self, key: Any) -> Column:
+        return Column(self.dims, self.data[key], self.attrs)
+
+
+class Plain:
+    """Variables and attributes, as far as summaries and figures ask an ``xarray.Dataset`` for them.
+
+    Parameters
+    ----------
+    variables
+        By name.
+    attrs
+        Attributes of the file.
+    source
+        The open file that variables are read from; None if all of them are in memory.
+    """
+
+    def __init__(
+        self, variables: dict[str, Column], attrs: dict[str, Any], source: Any = None
+    ) -> None:
+        self.variables, self.attrs, self.source = variables, attrs, source
+        self.sizes = {
+            name: size
+            for column in variables.values()
+            for name, size in zip(column.dims, column.data.shape, strict=True)
+        }
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.variables
+
+    def __getitem__(self, name: str) -> Column:
+        return self.variables[name]
 
 
 def spans(data: xr.Dataset, *names: str) -> Iterator[slice]:

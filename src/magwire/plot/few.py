@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.pieces import pieces, spans
+from magwire.pieces import Column, Plain, pieces, spans
 from magwire.plot.shapes import snapshots
 
 if TYPE_CHECKING:
@@ -39,11 +39,16 @@ def _summed(force: Array) -> Array:
     return np.asarray(np.linalg.norm(force, axis=2).sum(axis=1))
 
 
+def _part(k: int) -> Callable[[Array], Array]:
+    """One column; a copy, as a view would keep all of a piece in memory."""
+    return lambda values: values[:, k].copy()
+
+
 CURVES: dict[str, tuple[Callable[[Array], Array], ...]] = {
     "normalized_push": (_as_it_is,),
     "normalized_tip_force": (_as_it_is,),
-    "field": tuple(lambda field, k=k: field[:, k] for k in range(3)),  # type: ignore[misc]
-    "clearance": (_nearest, lambda clearance: clearance[:, -1]),
+    "field": tuple(_part(k) for k in range(3)),
+    "clearance": (_nearest, _part(-1)),
     "clearance_midpoint": (_as_it_is,),
     "wall_force": (_as_it_is,),
     "push_force": (_as_it_is,),
@@ -52,13 +57,13 @@ CURVES: dict[str, tuple[Callable[[Array], Array], ...]] = {
     "friction_work": (_as_it_is,),
     "guide_twist": (_as_it_is,),
     "tip_twist": (_as_it_is,),
-    "slip": (_highest, lambda slip: slip[:, -1]),
+    "slip": (_highest, _part(-1)),
 }
 """What figures draw of the variables, each a curve over the records."""
 DRAWN = (*CURVES, "tip_force", "position", "time")
 
 
-def few(data: xr.Dataset) -> xr.Dataset:
+def few(data: Any) -> Any:
     """A result with no more records than a figure can show, in memory.
 
     Parameters
@@ -68,7 +73,7 @@ def few(data: xr.Dataset) -> xr.Dataset:
 
     Returns
     -------
-    xarray.Dataset
+    xarray.Dataset or Plain
         The same if it is short. Of a longer run, of every stretch the first record and those where
         a curve is lowest and highest: what is drawn of them has the same extremes.
     """
@@ -82,11 +87,15 @@ def few(data: xr.Dataset) -> xr.Dataset:
             chosen |= _extremes(np.concatenate([curve(v) for (v,) in pieces(data, name)]), length)
     keep = np.array(sorted(chosen))
     made = {
-        name: (data.variables[name].dims, _gathered(data, name, keep), data.variables[name].attrs)
-        for name in DRAWN
-        if name in data.variables
+        str(name): Column(held.dims, held.values, held.attrs)
+        for name, held in data.variables.items()
+        if "time" not in held.dims
     }
-    return data.drop_dims("time").assign(made).set_coords("time")
+    for name in DRAWN:
+        if name in data.variables:
+            held = data.variables[name]
+            made[name] = Column(held.dims, _gathered(data, name, keep), held.attrs)
+    return Plain(made, dict(data.attrs))
 
 
 def _extremes(values: Array, length: int) -> set[int]:

@@ -73,7 +73,7 @@ def gains(steered: Result, passive: Result) -> list[str]:
         before, after = (1e3 * float(getattr(run, name)) for run in (passive, steered))
         return f"{before:.3g} mN to " + (f"{after:.3g} mN" if after else "none")
 
-    fed = [largest(run.dataset, lambda feed: feed, "feed") for run in (steered, passive)]
+    fed = [largest(run.held, lambda feed: feed, "feed") for run in (steered, passive)]
     far = f"; over {1e3 * fed[0]:.4g} mm of {1e3 * fed[1]:.4g}" if fed[0] < fed[1] else ""
     rows = {
         "gained, tip": f"peak force from {change('max_tip_force')}, "
@@ -88,8 +88,8 @@ def gains(steered: Result, passive: Result) -> list[str]:
 
 def _course(result: Result) -> dict[str, str]:
     """How far it went, and by what kind of motion."""
-    records = result.dataset.sizes["time"]
-    fed = show(float(at(result.dataset, "feed", -1)), "length") if records else "nothing"
+    records = result.held.sizes["time"]
+    fed = show(float(at(result.held, "feed", -1)), "length") if records else "nothing"
     rows = {
         "inserted": f"{fed} in {result.steps} steps, {_simulated(result):.4g} s simulated",
         "motion": result.motion,
@@ -100,7 +100,7 @@ def _course(result: Result) -> dict[str, str]:
             f"{_short(result.largest_move)} beyond what was inserted, between two records"
         )
     unstable, first = 0, float("nan")
-    for stable, feed in pieces(result.dataset, "stable", "feed"):
+    for stable, feed in pieces(result.held, "stable", "feed"):
         not_so = np.flatnonzero(~(stable > 0.0))
         if not_so.size and not unstable:
             first = float(feed[not_so[0]])
@@ -124,7 +124,7 @@ def _forces(result: Result, passive: Result | None) -> Iterator[tuple[str, str]]
 
     yield "tip contact-free", "yes, at every step" if result.tip_contact_free else "no"
     yield "wire contact-free", _wire_free(result)
-    least = TORQUE * result.force_scale * float(result.dataset.attrs["length_scale"])
+    least = TORQUE * result.force_scale * float(result.held.attrs["length_scale"])
     for name, attribute, show_as in (
         ("peak tip force", "max_tip_force", force),
         ("mean tip force", "mean_tip_force", force),
@@ -162,7 +162,7 @@ def _patch(result: Result) -> str:
 def _wall(result: Result) -> dict[str, str]:
     """How near wire and wall came to each other."""
     first, clearance = result.first_contact, result.smallest_clearance
-    length = float(result.dataset.attrs["length_scale"])
+    length = float(result.held.attrs["length_scale"])
     return {
         "smallest clearance": "none, no wall" if np.isnan(clearance) else f"{clearance:.3e} m",
         "first contact": "none"
@@ -175,11 +175,11 @@ def _rubbing(result: Result) -> dict[str, str]:
     """What friction took, and how far the tip turned behind the guide."""
     rows = {}
     if result.work_of_friction > 0.0:
-        slid = _short(largest(result.dataset, lambda slip: slip, "slip"))
+        slid = _short(largest(result.held, lambda slip: slip, "slip"))
         rows["work of friction"] = f"{result.work_of_friction:.4g} J, over up to {slid} of slip"
-    turns = [(twist.min(), twist.max()) for (twist,) in pieces(result.dataset, "guide_twist")]
+    turns = [(twist.min(), twist.max()) for (twist,) in pieces(result.held, "guide_twist")]
     if turns and np.ptp(turns) > TURNED:
-        last = np.degrees([at(result.dataset, f"{end}_twist", -1) for end in ("guide", "tip")])
+        last = np.degrees([at(result.held, f"{end}_twist", -1) for end in ("guide", "tip")])
         rows["twist"] = (
             f"guide {last[0]:.4g} deg, tip {last[1]:.4g} deg at the end; "
             f"up to {np.degrees(result.largest_lag):.3g} deg apart"
@@ -189,7 +189,7 @@ def _rubbing(result: Result) -> dict[str, str]:
 
 def _steering(result: Result) -> dict[str, str]:
     """How well it was steered."""
-    scale = float(result.dataset.attrs["field_scale"])  # NaN without a magnet
+    scale = float(result.held.attrs["field_scale"])  # NaN without a magnet
     rows = {
         "largest tip offset": _short(result.largest_tip_offset),
         "peak field": show(result.peak_field, "flux_density")
@@ -197,7 +197,7 @@ def _steering(result: Result) -> dict[str, str]:
     }
     if not np.isnan(result.largest_tip_departure):
         most = result.largest_tip_departure
-        courses = pieces(result.dataset, "tip_departure", "feed")
+        courses = pieces(result.held, "tip_departure", "feed")
         fed = next(feed[away == most][0] for away, feed in courses if np.any(away == most))
         rows["model error"] = (
             f"{_short(most)} at most at the tip, at a feed of {show(float(fed), 'length')}"
@@ -222,4 +222,4 @@ def _short(length: float) -> str:
 
 def _simulated(result: Result) -> float:
     """Simulated time at the end [s]."""
-    return float(at(result.dataset, "time", -1)) if result.dataset.sizes["time"] else 0.0
+    return float(at(result.held, "time", -1)) if result.held.sizes["time"] else 0.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,6 +22,11 @@ NOT_YET = {"friction_force": 0.0, "slip": 0.0, "friction_work": 0.0}
 """Of versions without friction."""
 LATER = {"guide_twist": np.nan, "tip_twist": np.nan}
 ONLY_MOTION = "dynamic"  # of versions that did not say which
+
+
+def lacks_nothing(names: Collection[str]) -> bool:
+    """Whether a result with such variables has all that one of this version has."""
+    return all(name in names for name in (*WANTED, *NOT_YET, *LATER, "wall_force"))
 
 
 def completed(dataset: xr.Dataset) -> xr.Dataset:

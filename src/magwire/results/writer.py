@@ -20,6 +20,7 @@ from magwire.engine.record import Record, RunInfo
 from magwire.errors import ResultError
 from magwire.files import claimed, draft_of
 from magwire.interrupt import Terminated
+from magwire.pieces import Column, Plain
 from magwire.results import disk
 from magwire.results.contract import (
     CONSTANTS,
@@ -37,8 +38,6 @@ from magwire.results.contract import (
 )
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from magwire.results.result import Result
 
 FLUSH_SECONDS = 2.0
@@ -149,7 +148,7 @@ class Writer:
 
         if not self.closed:
             raise ResultError("A result can be had from its writer only after the run has ended.")
-        return Result(self._dataset()) if self.path is None else Result.load(self.path)
+        return Result.of(self._held()) if self.path is None else Result.load(self.path)
 
     def __enter__(self) -> Self:
         return self
@@ -180,18 +179,17 @@ class Writer:
         derived = derive(columns, self.layout)
         return columns | {name: derived[name] for name in derived if self._exists(DERIVED[name])}
 
-    def _dataset(self) -> xr.Dataset:
-        import xarray as xr
-
-        data: dict[str, Any] = {}
+    def _held(self) -> Plain:
+        """What has been recorded in memory."""
+        data: dict[str, Column] = {}
         for name, column in self._columns(self._waiting).items():
             variable = (VARIABLES | DERIVED)[name]
             notes = {"units": variable.units, "long_name": variable.long_name}
-            data[name] = (variable.dims, column, notes | dict(variable.extra))
+            data[name] = Column(variable.dims, column, notes | dict(variable.extra))
         for name, constant in self._constants().items():
             notes = {"units": constant.units, "long_name": constant.long_name}
-            data[name] = (constant.dims, self._constant(constant), notes)
-        return xr.Dataset(data, attrs=self._attributes).set_coords("time")
+            data[name] = Column(constant.dims, self._constant(constant), notes)
+        return Plain(data, self._attributes)
 
     def _constants(self) -> dict[str, Constant]:
         """The variables without time; a run in open space has none."""

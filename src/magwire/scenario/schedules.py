@@ -95,8 +95,8 @@ def schedule_of(result: Result) -> Schedule:
         from magwire.scenario.reader import parse
 
         own = parse(result.scenario, source="of the result").field.build()
-        nodes = result.dataset.variables["position"]
-        tips = [nodes[records, -1].values for records in spans(result.dataset, "position")]
+        nodes = result.held.variables["position"]
+        tips = [nodes[records, -1].values for records in spans(result.held, "position")]
         flux = flux - own.at(np.concatenate(tips)[course])[0]
     return Schedule(fed[course], flux)
 

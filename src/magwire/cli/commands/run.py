@@ -109,7 +109,7 @@ def _report(
     if passive is not None:
         for line in summary.gains(result, passive):
             say(line)
-    if steered and result.dataset.sizes["time"]:
+    if steered and result.held.sizes["time"]:
         from magwire.scenario import schedule_of, write_schedule
 
         with writing_to(folder):
@@ -121,7 +121,7 @@ def _report(
         from magwire import plot as pictures
 
         with writing_to(folder):
-            pictures.save(result.dataset, folder, passive=passive.dataset if passive else None)
+            pictures.save(result.held, folder, passive=passive.held if passive else None)
     say(f"{'written to':{summary.COLUMN}}{folder}")
     return status
 
