@@ -57,11 +57,11 @@ class Writer:
     Between flushes records wait in memory; where there are too many of them, as the file is large
     and flushes come less often, in a draft of the file. A flush appends them to a copy of the file,
     which then takes the place of the file in one step: a process that is killed at any time leaves
-    a file that is complete up to its last flush, and others may read it while the run goes. As a
-    context
-    manager the writer closes itself when the block is left by an exception: "interrupted" after
-    Ctrl-C, "terminated" when the process is told to end, "failed" else. No other process may write
-    the same file meanwhile.
+    a file that is complete up to its last flush, and others may read it while the run goes.
+
+    As a context manager the writer closes itself when the block is left by an exception:
+    "interrupted" after Ctrl-C, "terminated" when the process is told to end, "failed" else. No
+    other process may write the same file meanwhile.
 
     Parameters
     ----------
@@ -218,11 +218,13 @@ class Writer:
         """Write while the run goes."""
         if self.path is None:
             return
+        before = self._written
         try:
             act(self.path)
-        except PermissionError:
-            # On Windows, while others read the file. Nothing is lost: the next flush takes it all.
-            pass
+        except PermissionError as error:
+            # On Windows, while others read the file: the next flush takes it all, if it is there.
+            if self._written < before:
+                raise _unwritable(self.path, error) from None
         except OSError as error:
             raise _unwritable(self.path, error) from None
 
