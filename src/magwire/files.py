@@ -63,6 +63,11 @@ def read_text(path: str | Path, most: int = LARGEST_TEXT) -> str:
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
+def draft_of(path: Path) -> Path:
+    """A new name next to a file for what is to take its place."""
+    return path.with_name(f".{path.stem}.{secrets.token_hex(4)}{DRAFT}{path.suffix}")
+
+
 @contextmanager
 def successor(path: Path) -> Iterator[Path]:
     """A draft next to a file that takes its place in one step, if nothing goes wrong.
@@ -70,7 +75,7 @@ def successor(path: Path) -> Iterator[Path]:
     Its name is its own, so that two processes do not write into one draft; it ends like the file's,
     which tells libraries what to write.
     """
-    draft = path.with_name(f".{path.stem}.{secrets.token_hex(4)}{DRAFT}{path.suffix}")
+    draft = draft_of(path)
     try:
         yield draft
         draft.replace(path)

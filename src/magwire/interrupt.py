@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import signal
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
+from typing import Any
 
 ENDING = tuple(signal.Signals[name] for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
 """How batch systems, and terminals that are closed, tell a process to end."""
@@ -42,6 +44,33 @@ def end_in_order() -> None:
 
 def _end(number: int, frame: FrameType | None) -> None:
     raise Terminated(number)
+
+
+@contextmanager
+def nothing_dropped() -> Iterator[None]:
+    """Raise a Ctrl-C, or a signal to end, in place of the error that came of dropping it.
+
+    While numba compiles, LLVM calls back into Python, and what is raised there goes no further: a
+    ``RuntimeError`` follows, as the machine code is missing.
+    """
+    dropped: list[BaseException] = []
+    former = sys.unraisablehook
+
+    def keep(found: Any) -> None:
+        if isinstance(found.exc_value, KeyboardInterrupt | Terminated):
+            dropped.append(found.exc_value)
+        else:
+            former(found)
+
+    sys.unraisablehook = keep
+    try:
+        yield
+    except Exception:
+        if dropped:
+            raise dropped[0] from None
+        raise
+    finally:
+        sys.unraisablehook = former
 
 
 @contextmanager

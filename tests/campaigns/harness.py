@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import os
+import random
 import shutil
 import signal
 import sys
@@ -10,7 +12,7 @@ import tempfile
 import time
 import traceback
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -129,14 +131,41 @@ def left_over(folder: Path) -> list[Path]:
 
 @dataclass
 class Tally:
-    """Counts of how cases ended; faults are printed as they come, and their inputs kept."""
+    """Counts of how cases ended; faults are printed as they come, and their inputs kept.
+
+    With a file, ``cases`` go on where an earlier call, which may have been killed, stood in it.
+    """
 
     name: str
+    state: Path | None = None
+    done: int = 0
     counts: Counter[str] = field(default_factory=Counter)
     faults: int = 0
     slowest: float = 0.0
     largest: float = 0.0
     kept: Path = field(default_factory=lambda: Path(tempfile.mkdtemp(prefix="magwire-campaign-")))
+
+    def __post_init__(self) -> None:
+        if self.state is not None and self.state.exists():
+            stood = json.loads(self.state.read_text(encoding="utf-8"))
+            self.done, self.faults = stood["done"], stood["faults"]
+            self.slowest, self.largest = stood["slowest"], stood["largest"]
+            self.counts.update(stood["counts"])
+
+    def cases(self, count: int, seed: int) -> Iterator[tuple[int, random.Random]]:
+        """Numbers of the cases that are to be done yet, each with its own source of chance."""
+        for number in range(self.done, count):
+            yield number, random.Random(f"{seed}, {number}")
+            self.done = number + 1
+            self._remember()
+
+    def _remember(self) -> None:
+        if self.state is None:
+            return
+        stood = {name: getattr(self, name) for name in ("done", "faults", "slowest", "largest")}
+        draft = self.state.with_suffix(".draft")
+        draft.write_text(json.dumps(stood | {"counts": self.counts}), encoding="utf-8")
+        draft.replace(self.state)
 
     def take(self, kind: str, ended: Ended, wrong: str = "", inputs: Sequence[Path] = ()) -> None:
         """Count a case; ``wrong`` says what else was not right with it."""
@@ -159,6 +188,8 @@ class Tally:
 
     def close(self) -> int:
         """Print the counts; the exit status."""
+        if self.done:
+            sys.stdout.write(f"{'cases':44}{self.done:8}\n")
         for kind, count in sorted(self.counts.items()):
             sys.stdout.write(f"{kind:44}{count:8}\n")
         sys.stdout.write(f"{'slowest case, s':44}{self.slowest:8.1f}\n")
@@ -167,7 +198,7 @@ class Tally:
         if self.faults:
             sys.stdout.write(f"Inputs of faults are in {self.kept}.\n")
         else:
-            self.kept.rmdir()
+            shutil.rmtree(self.kept)
         return 1 if self.faults else 0
 
 
@@ -175,6 +206,11 @@ def count_and_seed(default: int) -> tuple[int, int]:
     """The numbers on the command line."""
     given = [int(word) for word in sys.argv[1:3]]
     return (given + [default, 0][len(given) :])[0], (given + [default, 0][len(given) :])[1]
+
+
+def state_file() -> Path | None:
+    """The file on the command line that keeps how far a campaign has come; none if left out."""
+    return Path(sys.argv[3]) if len(sys.argv) > 3 else None
 
 
 def warm() -> None:

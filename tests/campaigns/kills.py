@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import random
 import shutil
 import signal
 import sys
@@ -10,7 +9,7 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from campaigns.harness import Tally, child, command, count_and_seed, left_over, warm
+from campaigns.harness import Tally, child, command, count_and_seed, left_over, state_file, warm
 
 SWEEP = """
 [sweep]
@@ -40,12 +39,14 @@ def commands(folder: Path) -> dict[str, tuple[Callable[[], int], Path]]:
         "plan": ("plan", "half-circle", "--max-field", "50 mT"),
         "reproduce": ("reproduce", "--only", "setup"),
         "verify": ("verify", "--only", "consistency"),
+        "export": ("export", ready, "--to", "csv"),
     }
     made = {name: (command(*parts, "--out", out, "--force"), out) for name, parts in words.items()}
     film = ("animate", ready, "--out", out / "film.gif", "--seconds", "2", "--force")
     return made | {
         "animate": (command(*film), out),
         "plot": (command("plot", ready, "--out", out, "--force"), out),
+        "view": (command("view", ready, "--out", out / "view.html", "--force"), out),
     }
 
 
@@ -63,13 +64,16 @@ def unreadable(folder: Path) -> str:
     for path in folder.rglob("[!.]*.png"):
         if not path.read_bytes().endswith(b"IEND\xaeB`\x82"):
             return f"{path.name} is half there"
+    for path in folder.rglob("[!.]*.html"):
+        if not path.read_text(encoding="utf-8").rstrip().endswith("</html>"):
+            return f"{path.name} is half there"
     return ""
 
 
 def main() -> int:
     """Run as a script."""
     count, seed = count_and_seed(300)
-    rng, tally = random.Random(seed), Tally("kills")
+    tally = Tally("kills", state_file())
     warm()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -77,7 +81,7 @@ def main() -> int:
         tally.take("made", child(ready, after=120.0))
         short = ("--set", "feed.distance=2 mm", "wire.nodes=24", "navigate.method=none")
         kinds = commands(folder)
-        for number in range(count):
+        for number, rng in tally.cases(count, seed):
             kind = list(kinds)[number % len(kinds)]
             act, out = kinds[kind]
             gentle = rng.random() < 0.25
@@ -93,7 +97,8 @@ def main() -> int:
                     tally.fault(f"{kind}, {how.name}: {wrong}")
             else:
                 tally.take(kind, ended, wrong)
-            after = child(command("run", "straight", *short, "--out", out, "--force"), after=60.0)
+            again = ("--out", out, "--force", "--no-figure")
+            after = child(command("run", "straight", *short, *again), after=60.0)
             left = [path for path in left_over(out) if path.parent == out]  # runs/ is the sweep's
             tally.take("next run", after, f"after {kind}: {left} are left" if left else "")
             shutil.rmtree(out, ignore_errors=True)

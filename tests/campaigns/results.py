@@ -8,7 +8,7 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from campaigns.harness import Tally, child, command, count_and_seed, warm
+from campaigns.harness import Tally, child, command, count_and_seed, state_file, warm
 
 DRAWN = 10
 """Of so many results one is drawn, which takes seconds."""
@@ -53,7 +53,7 @@ def flipped(data: bytes, rng: random.Random) -> bytes:
 def main() -> int:
     """Run as a script."""
     count, seed = count_and_seed(500)
-    rng, tally = random.Random(seed), Tally("results")
+    tally = Tally("results", state_file())
     warm()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -61,7 +61,7 @@ def main() -> int:
         made = child(command("run", "half-circle", *words, "--out", folder / "out"), after=120.0)
         tally.take("made", made)
         data = (folder / "out" / "result.nc").read_bytes()
-        for number in range(count):
+        for number, rng in tally.cases(count, seed):
             path = folder / "flipped.nc"
             path.write_bytes(flipped(data, rng))
             draw = number % DRAWN == 0

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import random
 import sys
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
 import vessel_files
-from campaigns.harness import Tally, child, count_and_seed, warm
+from campaigns.harness import Tally, child, count_and_seed, state_file, warm
 from corrupted_files import SELDOM, broken
 
 SLOW = (".stl", ".ply", ".obj")
@@ -39,7 +38,7 @@ def reading(path: Path) -> Callable[[], int]:
 def main() -> int:
     """Run as a script."""
     count, seed = count_and_seed(10_000)
-    rng, tally = random.Random(seed), Tally("vessels")
+    tally = Tally("vessels", state_file())
     warm()
     import magwire.vessel  # noqa: F401
 
@@ -47,7 +46,7 @@ def main() -> int:
     slow = [name for name in sorted(seeds) if name.endswith(SLOW)]
     names = [name for name in sorted(seeds) if name not in slow] * SELDOM + slow
     with tempfile.TemporaryDirectory() as folder:
-        for number in range(count):
+        for number, rng in tally.cases(count, seed):
             name = names[number % len(names)]
             path = Path(folder) / name
             path.write_bytes(broken(seeds[name], rng))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import os
 import signal
 import subprocess
@@ -15,6 +16,7 @@ import pytest
 
 from magwire.cli import main
 from magwire.files import InUseError, claimed
+from magwire.interrupt import nothing_dropped
 from magwire.results import Result, Writer
 from records import info, records
 
@@ -130,6 +132,23 @@ def test_being_told_to_end_closes_the_result(tmp_path: Path, number: signal.Sign
     assert result.message == f"The process was told to end by {number.name}."
     assert result.time.size > 0
     assert left_over(tmp_path) == []
+
+
+def test_an_interrupt_that_a_compiler_drops_is_one_still(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def called_back() -> None:
+        raise KeyboardInterrupt
+
+    def compiling() -> None:
+        ctypes.CFUNCTYPE(None)(called_back)()
+        raise RuntimeError("no compiled object yet")
+
+    with pytest.raises(KeyboardInterrupt), nothing_dropped():
+        compiling()
+    with pytest.raises(RuntimeError), nothing_dropped():
+        raise RuntimeError("of another kind")
+    assert not capsys.readouterr().err
 
 
 def test_the_second_run_into_a_folder_is_refused(tmp_path: Path) -> None:

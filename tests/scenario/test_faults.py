@@ -159,6 +159,11 @@ FAULTS = (
         "Input wire.nodes must be at least 4; received 2.",
     ),
     Fault(
+        "points that take gigabytes",
+        ("lumen.points=1000000",),
+        "Input lumen.points must be at most 200000; received 1000000.",
+    ),
+    Fault(
         "too many nodes for any machine",
         ("wire.nodes=1000000000",),
         "Input wire.nodes must be at most 100000; received 1000000000.",

@@ -8,8 +8,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq, linprog
-from scipy.special import erfinv
 
 from magwire.actuate.actuator import Actuator
 from magwire.actuate.inputs import Input
@@ -136,6 +134,8 @@ class _Curve(NamedTuple):
         """The input whose strength is ``s``."""
         part = s / self.a if self.kind else s
         if self.kind == ERF:
+            from scipy.special import erfinv
+
             return float(erfinv(part)) / self.b
         if self.kind == ATAN:
             return math.tan(part) / self.b
@@ -180,6 +180,8 @@ class _Programme(NamedTuple):
 
     def most(self, aim: Array) -> tuple[float, Array]:
         """The largest flux density along ``aim`` and the inputs that make it."""
+        from scipy.optimize import linprog  # slow to import, and steering does without
+
         count = len(self.curves)
         cost = np.append(np.zeros(count), -1.0)
         ends = zip(self.curves, self.limits, strict=True)
@@ -209,6 +211,8 @@ class _Programme(NamedTuple):
 
     def _cut(self, s: Array) -> tuple[Array, float]:
         """The tangent of the allowed power on the way from zero to ``s``: tangent s <= level."""
+        from scipy.optimize import brentq
+
         share = float(brentq(lambda a: self._power(a * s) - self.max_power, 0.0, 1.0, xtol=1e-9))
         edge = share * s
         u = self._inputs(edge)

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.io import netcdf_file
 
 from magwire.errors import InputError, array
 from magwire.files import read_bytes
@@ -153,6 +152,8 @@ def _csv(data: bytes, name: str) -> FieldGrid:
 
 
 def _netcdf(data: bytes, name: str) -> FieldGrid:
+    from scipy.io import netcdf_file
+
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")

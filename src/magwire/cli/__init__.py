@@ -30,7 +30,7 @@ from magwire.cli.commands.verify import verify
 from magwire.cli.commands.view import view
 from magwire.cli.words import INTERRUPTED, complain
 from magwire.errors import MagwireError
-from magwire.interrupt import Terminated, end_in_order
+from magwire.interrupt import Terminated, end_in_order, nothing_dropped
 
 __all__ = ["app", "main"]
 
@@ -89,7 +89,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     gc.set_threshold(RESTING)
     end_in_order()
     try:
-        status = app(words, exit_on_error=False, print_error=False)
+        with nothing_dropped():
+            status = app(words, exit_on_error=False, print_error=False)
     except KeyboardInterrupt:
         complain("Interrupted.")
         return INTERRUPTED

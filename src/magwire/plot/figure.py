@@ -15,6 +15,7 @@ from matplotlib.ticker import MaxNLocator
 
 from magwire.files import successor
 from magwire.plot import curves, friction, inputs, loads, shapes, style
+from magwire.plot.few import few
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -49,8 +50,10 @@ def draw(data: xr.Dataset, passive: xr.Dataset | None = None) -> Figure:
         components and clearance against normalised push; below, where along the lumen the wall is
         pressed, and the forces on tip and wire and at the guide; where there is an actuator, a
         row with its inputs and what they cost; where there is friction, a row with what it takes,
-        and with how far the wire slid or the twists of guide and tip.
+        and with how far the wire slid or the twists of guide and tip. Of
+        a run of very many records those are drawn that make the same picture.
     """
+    data, passive = few(data), None if passive is None else few(passive)
     with mpl.rc_context(style.RC):
         aspect = shapes.aspect(data)
         top = COLUMN / aspect + AROUND
@@ -95,7 +98,7 @@ def draw(data: xr.Dataset, passive: xr.Dataset | None = None) -> Figure:
             panel.xaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
             panel.set_xlim(0.0, float(push.max(initial=0.0)) or 1.0)
         figure.draw_without_rendering()  # settles the layout, once for all formats
-        figure.set_layout_engine("none")
+        figure.set_layout_engine(None)  # a placeholder would have each format drawn twice
         _round_places(figure)
     return figure
 

@@ -11,7 +11,6 @@ from matplotlib.collections import LineCollection
 from matplotlib.patches import Polygon
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from magwire.plot import style
 
@@ -255,6 +254,8 @@ def leaves(part: Branch, before: list[Branch]) -> int:
     """Index of the point after which a path is not one with those before it any more."""
     if not before:
         return 0
+    from scipy.spatial import KDTree
+
     points = np.concatenate([other.points for other in before])
     radius = np.concatenate([other.radius for other in before])
     away, nearest = KDTree(points).query(part.points)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from magwire.actuate.recorded import of_hardware, power_of
+from magwire.pieces import at, largest, pieces
 from magwire.units import show
 
 if TYPE_CHECKING:
@@ -75,7 +76,7 @@ def gains(steered: Result, passive: Result) -> list[str]:
         before, after = (1e3 * float(getattr(run, name)) for run in (passive, steered))
         return f"{before:.3g} mN to " + (f"{after:.3g} mN" if after else "none")
 
-    fed = [float(run.feed.max(initial=0.0)) for run in (steered, passive)]
+    fed = [largest(run.held, lambda feed: feed, "feed") for run in (steered, passive)]
     far = f"; over {1e3 * fed[0]:.4g} mm of {1e3 * fed[1]:.4g}" if fed[0] < fed[1] else ""
     rows = {
         "gained, tip": f"peak force from {change('max_tip_force')}, "
@@ -90,7 +91,8 @@ def gains(steered: Result, passive: Result) -> list[str]:
 
 def _course(result: Result) -> dict[str, str]:
     """How far it went, and by what kind of motion."""
-    fed = show(float(result.feed[-1]), "length") if result.feed.size else "nothing"
+    records = result.held.sizes["time"]
+    fed = show(float(at(result.held, "feed", -1)), "length") if records else "nothing"
     rows = {
         "inserted": f"{fed} in {result.steps} steps, {_simulated(result):.4g} s simulated",
         "motion": result.motion,
@@ -100,12 +102,16 @@ def _course(result: Result) -> dict[str, str]:
         rows["largest move"] = (
             f"{_short(result.largest_move)} beyond what was inserted, between two records"
         )
-    unstable = np.flatnonzero(~result.stable)
+    unstable, first = 0, float("nan")
+    for stable, feed in pieces(result.held, "stable", "feed"):
+        not_so = np.flatnonzero(~(stable > 0.0))
+        if not_so.size and not unstable:
+            first = float(feed[not_so[0]])
+        unstable += not_so.size
     rows["stable"] = "at every record"
-    if unstable.size:
-        first = show(float(result.feed[unstable[0]]), "length")
+    if unstable:
         rows["stable"] = (
-            f"not at {unstable.size} of {result.feed.size} records, first at a feed of {first}"
+            f"not at {unstable} of {records} records, first at a feed of {show(first, 'length')}"
         )
     return rows
 
@@ -121,7 +127,7 @@ def _forces(result: Result, passive: Result | None) -> Iterator[tuple[str, str]]
 
     yield "tip contact-free", "yes, at every step" if result.tip_contact_free else "no"
     yield "wire contact-free", _wire_free(result)
-    least = TORQUE * result.force_scale * float(result.dataset.attrs["length_scale"])
+    least = TORQUE * result.force_scale * float(result.held.attrs["length_scale"])
     for name, attribute, show_as in (
         ("peak tip force", "max_tip_force", force),
         ("mean tip force", "mean_tip_force", force),
@@ -159,7 +165,7 @@ def _patch(result: Result) -> str:
 def _wall(result: Result) -> dict[str, str]:
     """How near wire and wall came to each other."""
     first, clearance = result.first_contact, result.smallest_clearance
-    length = float(result.dataset.attrs["length_scale"])
+    length = float(result.held.attrs["length_scale"])
     rows = {
         "smallest clearance": "none, no wall" if np.isnan(clearance) else f"{clearance:.3e} m",
         "first contact": "none"
@@ -168,10 +174,12 @@ def _wall(result: Result) -> dict[str, str]:
     }
     if result.largest_indentation > 0.0:
         rows["wall pressed in"] = f"{_short(result.largest_indentation)} at most"
-    moved = np.linalg.norm(result.wall_displacement, axis=-1).max(initial=0.0)
+    moved = 0.0
+    if "wall_displacement" in result.held:
+        moved = largest(result.held, lambda u: np.linalg.norm(u, axis=-1), "wall_displacement")
     if moved > 0.0:
         rows["wall moved"] = (
-            f"{_short(float(moved))} at most at the wire, and did {result.work_of_wall:.4g} J to it"
+            f"{_short(moved)} at most at the wire, and did {result.work_of_wall:.4g} J to it"
         )
     return rows
 
@@ -180,10 +188,11 @@ def _rubbing(result: Result) -> dict[str, str]:
     """What friction took, and how far the tip turned behind the guide."""
     rows = {}
     if result.work_of_friction > 0.0:
-        slid = _short(float(result.slip.max(initial=0.0)))
+        slid = _short(largest(result.held, lambda slip: slip, "slip"))
         rows["work of friction"] = f"{result.work_of_friction:.4g} J, over up to {slid} of slip"
-    if result.guide_twist.size and np.ptp(result.guide_twist) > TURNED:
-        last = np.degrees([result.guide_twist[-1], result.tip_twist[-1]])
+    turns = [(twist.min(), twist.max()) for (twist,) in pieces(result.held, "guide_twist")]
+    if turns and np.ptp(turns) > TURNED:
+        last = np.degrees([at(result.held, f"{end}_twist", -1) for end in ("guide", "tip")])
         rows["twist"] = (
             f"guide {last[0]:.4g} deg, tip {last[1]:.4g} deg at the end; "
             f"up to {np.degrees(result.largest_lag):.3g} deg apart"
@@ -193,7 +202,7 @@ def _rubbing(result: Result) -> dict[str, str]:
 
 def _steering(result: Result) -> dict[str, str]:
     """How well it was steered."""
-    scale = float(result.dataset.attrs["field_scale"])  # NaN without a magnet
+    scale = float(result.held.attrs["field_scale"])  # NaN without a magnet
     rows = {
         "largest tip offset": _short(result.largest_tip_offset),
         "peak field": show(result.peak_field, "flux_density")
@@ -201,16 +210,19 @@ def _steering(result: Result) -> dict[str, str]:
     }
     rows |= _driving(result)
     if not np.isnan(result.largest_tip_departure):
-        at = float(result.feed[np.nanargmax(result.tip_departure)])
-        away = _short(result.largest_tip_departure)
-        rows["model error"] = f"{away} at most at the tip, at a feed of {show(at, 'length')}"
+        most = result.largest_tip_departure
+        courses = pieces(result.held, "tip_departure", "feed")
+        fed = next(feed[away == most][0] for away, feed in courses if np.any(away == most))
+        rows["model error"] = (
+            f"{_short(most)} at most at the tip, at a feed of {show(float(fed), 'length')}"
+        )
     return rows
 
 
 def _driving(result: Result) -> dict[str, str]:
     """What the actuator was set to, and what that cost."""
-    names = of_hardware(result.dataset.attrs)
-    if not names or not result.feed.size:
+    names = of_hardware(result.held.attrs)
+    if not names or not result.held.sizes["time"]:
         return {}
     rows = {}
     for unit, what in (("A", "peak currents"), ("T", "peak inputs"), ("T/m", "peak gradients")):
@@ -219,7 +231,7 @@ def _driving(result: Result) -> dict[str, str]:
             largest = np.abs(result.inputs).max(axis=0)
             most = sorted(columns, key=lambda k: -largest[k])[:MOST]
             rows[what] = ", ".join(f"{largest[k]:.3g} {unit} in {names[k][0]}" for k in most)
-    power = power_of(result.dataset.attrs, result.inputs)
+    power = power_of(result.held.attrs, result.inputs)
     if power is not None:
         rows["power of coils"] = f"{power.max():.4g} W at most, {power.mean():.4g} W on average"
     places = [k for k, (_, unit) in enumerate(names) if unit == "m"]
@@ -247,4 +259,4 @@ def _short(length: float) -> str:
 
 def _simulated(result: Result) -> float:
     """Simulated time at the end [s]."""
-    return float(result.time[-1]) if result.time.size else 0.0
+    return float(at(result.held, "time", -1)) if result.held.sizes["time"] else 0.0

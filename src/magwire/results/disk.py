@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, cast
@@ -90,32 +89,30 @@ class Sink:
                 self._failure = error
 
 
-def revise(path: Path, change: Callable[[Any], None]) -> None:
-    """Change a copy of an HDF5 file, which then takes its place in one step.
+def change(path: Path, act: Callable[[Any], None]) -> None:
+    """Change an HDF5 file where it is.
 
     Parameters
     ----------
     path
         The file.
-    change
-        Called with the open copy.
+    act
+        Called with the open file.
 
     Raises
     ------
     OSError
-        If there is no room, or the file cannot be written; it is as it was then.
+        If there is no room, or the file cannot be written; it is spoilt then.
     """
     import h5py
 
-    with successor(path) as draft:
-        shutil.copyfile(path, draft)
-        with draft.open("r+b", buffering=0) as file:
-            sink = Sink(cast("IO[bytes]", file))
-            try:
-                with h5py.File(sink, "r+") as opened:
-                    change(opened)
-            finally:
-                sink.settle()
+    with path.open("r+b", buffering=0) as file:
+        sink = Sink(cast("IO[bytes]", file))
+        try:
+            with h5py.File(sink, "r+") as opened:
+                act(opened)
+        finally:
+            sink.settle()
 
 
 def create(path: Path, fill: Callable[[Any], None]) -> None:
@@ -131,7 +128,7 @@ def create(path: Path, fill: Callable[[Any], None]) -> None:
     Raises
     ------
     OSError
-        As in ``revise``.
+        If there is no room, or the file cannot be written; it is as it was then.
     """
     import h5netcdf
 
@@ -150,7 +147,7 @@ def save(dataset: xr.Dataset, path: Path, unlimited: tuple[str, ...] = ()) -> No
     Raises
     ------
     OSError
-        As in ``revise``.
+        As in ``create``.
     """
     from xarray.backends import H5NetCDFStore
 

@@ -9,12 +9,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from magwire.engine.record import patch_length
+
+if TYPE_CHECKING:
+    from scipy.spatial import KDTree
 
 Array = NDArray[np.float64]
 
@@ -87,6 +90,8 @@ class Layout:
     @cached_property
     def _samples(self) -> tuple[Array, Array, KDTree]:
         """Arc parameters [m] and radii [m] of finely spaced points of the path; and the points."""
+        from scipy.spatial import KDTree  # slow to import, and not every wire touches
+
         arc = np.linspace(0.0, self._along[-1], SAMPLES * len(self.arc) + 1)
         found = self.point(arc)
         return arc, found[:, 3], KDTree(found[:, :3])

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import io
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from magwire.errors import ResultError
+from magwire.pieces import Plain
+from magwire.results import plain
 from magwire.results.contract import CONSTANTS, DERIVED, VARIABLES, running_attributes
 
 if TYPE_CHECKING:
@@ -25,10 +29,17 @@ TEXTS = ("status", "message", "scenario")
 NUMBERS = (*running_attributes(None), "length_scale", "force_scale", "field_scale")
 PACKED = 1000
 """What compression makes smaller at most, over what is stored."""
+CACHE = 2**17
+"""Memory for chunks of each variable [bytes]; HDF5's own choice is 8 MB, times 35 variables."""
+WHOLE = 2**24
+"""Size of a file up to which it is read whole [bytes]."""
 
 
-def load(path: Path) -> xr.Dataset:
-    """The variables and attributes of a result file, all in memory.
+def load(path: Path) -> Plain | xr.Dataset:
+    """The variables and attributes of a result file.
+
+    All of a small one is in memory, and of one with compressed variables, which cannot be checked
+    unread. Those of a large one are read as they are asked for.
 
     Raises
     ------
@@ -36,8 +47,8 @@ def load(path: Path) -> xr.Dataset:
         If it is none, or damaged.
     """
     import h5py
-    import xarray as xr
 
+    found: Plain | xr.Dataset | None = None
     if path.exists() and not path.is_file():  # reading a pipe may never end
         raise ResultError(f"Result file '{path}' is no regular file.")
     try:
@@ -45,14 +56,39 @@ def load(path: Path) -> xr.Dataset:
             raise OSError
         with h5py.File(path) as file:
             fault = _damage(file)
+            large = path.stat().st_size > WHOLE
+            large = large and all(file[name].compression is None for name in file)
+            if large and not fault:
+                fault = _gap(file, path.stat().st_size)
+            elif not fault:
+                found = plain.read(file, whole=True)
+        if large and not fault:
+            source = Source(path)  # anew: what was looked through is in memory
+            found = plain.read(h5py.File(source, rdcc_nbytes=CACHE), whole=False)
+            if found is not None:
+                found.source = source
         if not fault:
-            dataset = xr.load_dataset(path, engine="h5netcdf")
-            fault = _misfit(dataset)
+            found = _opened(path, large=large) if found is None else found
+            fault = _misfit(found)
     except Exception as error:  # a damaged file may raise anything in there
         raise ResultError(f"Result file '{path}' is not a readable NetCDF-4 file.") from error
-    if fault:
+    if fault or found is None:
         raise ResultError(f"File '{path}' {fault}.")
-    return dataset
+    return found
+
+
+class Source(io.FileIO):
+    """A file that closes when nothing reads from it any more, without a warning."""
+
+    def __del__(self) -> None:
+        self.close()
+
+
+def _opened(path: Path, *, large: bool) -> xr.Dataset:
+    """A file that is large, or not as this version writes it."""
+    import xarray as xr
+
+    return (xr.open_dataset if large else xr.load_dataset)(path, engine="h5netcdf")
 
 
 def _damage(file: Any) -> str:
@@ -75,7 +111,28 @@ def _damage(file: Any) -> str:
     return ""
 
 
-def _misfit(dataset: xr.Dataset) -> str:
+def _gap(file: Any, size: int) -> str:
+    """What of a file's numbers is not in it, found without reading them; "" if all are."""
+    for name in file:
+        held, chunks, end = file[name], 0, 0
+
+        def look(chunk: Any) -> None:
+            nonlocal chunks, end
+            chunks, end = chunks + 1, max(end, chunk.byte_offset + chunk.size)
+
+        if held.chunks is None:
+            end = (held.id.get_offset() or 0) + held.id.get_storage_size()
+        else:
+            held.id.chunk_iter(look)
+            shape = zip(held.shape, held.chunks, strict=True)
+            if chunks < math.prod(-(-rows // of) for rows, of in shape):
+                return f"is damaged: it lacks numbers of {name}"
+        if end > size:
+            return f"is damaged: {name} is not all in it"
+    return ""
+
+
+def _misfit(dataset: Plain | xr.Dataset) -> str:
     """What does not fit together; "" if all does."""
     for name, variable in dataset.variables.items():
         wanted = KNOWN.get(str(name))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -28,6 +29,11 @@ NOT_YET = {
 """Of versions without friction, or whose walls were rigid and at rest."""
 LATER = {"guide_twist": np.nan, "tip_twist": np.nan}
 ONLY_MOTION = "dynamic"  # of versions that did not say which
+
+
+def lacks_nothing(names: Collection[str]) -> bool:
+    """Whether a result with such variables has all that one of this version has."""
+    return all(name in names for name in (*WANTED, *NOT_YET, *LATER, "wall_force"))
 
 
 def completed(dataset: xr.Dataset) -> xr.Dataset:

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from magwire.actuate.recorded import names_of, power_of
 from magwire.errors import ResultError, offering, positive, refuse
 from magwire.files import successor
-from magwire.results import disk, forces, loading
+from magwire.pieces import Plain, at, largest, piece, pieces, spans
+from magwire.results import disk, forces, loading, plain
 from magwire.results.older import completed
 from magwire.units import show
 
@@ -34,6 +35,11 @@ class Result:
         Variables and attributes as in a result file. What files of earlier versions lack is added
         if it follows from what they hold.
 
+    Attributes
+    ----------
+    held
+        The same as ``dataset``, for summaries and figures, which do without xarray.
+
     Notes
     -----
     Largest and mean tip forces, first contact and so ``tip_contact_free`` and ``wire_contact_free``
@@ -44,11 +50,32 @@ class Result:
         offering(
             "Result", "dataset", dataset, [("attrs", "sizes", "data_vars")], "an xarray Dataset"
         )
-        self.dataset = completed(dataset)
+        self.held: Any = completed(dataset)
+
+    @classmethod
+    def of(cls, held: Plain | xr.Dataset) -> Result:
+        """The result that holds something that has been read or recorded."""
+        if not isinstance(held, Plain):
+            return cls(held)
+        made = cls.__new__(cls)
+        made.held = held
+        return made
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """Variables and attributes as in a result file."""
+        if isinstance(self.held, Plain):
+            self.held = plain.dataset(self.held)
+        found: xr.Dataset = self.held
+        return found
 
     @classmethod
     def load(cls, path: str | Path) -> Result:
-        """Read a result file; all of it, so that the file is free afterwards.
+        """Read a result file.
+
+        One of up to 16 MB is read whole, and free afterwards. A larger one stays open, and its
+        variables are read as they are asked for: a long run need not fit into memory.
+        ``result.dataset.load()`` reads all, ``result.dataset.close()`` lets go of the file.
 
         Parameters
         ----------
@@ -69,7 +96,7 @@ class Result:
             path = path / FILE
         if not path.exists():
             raise ResultError(f"Result file '{path}' does not exist.")
-        return cls(loading.load(path))
+        return cls.of(loading.load(path))
 
     def save(self, path: str | Path) -> Path:
         """Write a result file; an existing one is overwritten.
@@ -97,7 +124,7 @@ class Result:
         """
         from magwire.plot import draw
 
-        figure = draw(self.dataset)
+        figure = draw(self.held)
         if path is not None:
             with successor(Path(path)) as draft:
                 figure.savefig(draft)
@@ -130,17 +157,17 @@ class Result:
         "complete", "not converged", "unstable", "no field", "interrupted", "terminated" or
         "failed".
         """
-        return str(self.dataset.attrs["status"])
+        return str(self.held.attrs["status"])
 
     @property
     def message(self) -> str:
         """Why it ended so; of a complete run, what was tried more than once, or ""."""
-        return str(self.dataset.attrs["message"])
+        return str(self.held.attrs["message"])
 
     @property
     def motion(self) -> str:
         """How the wire moved: in time, "dynamic"; or by equilibria, "quasi-static"."""
-        return str(self.dataset.attrs["motion"])
+        return str(self.held.attrs["motion"])
 
     @property
     def converged(self) -> bool:
@@ -150,7 +177,7 @@ class Result:
     @property
     def scenario(self) -> str:
         """The scenario as TOML; "" for a run that was set up in Python."""
-        return str(self.dataset.attrs["scenario"])
+        return str(self.held.attrs["scenario"])
 
     @property
     def max_tip_force(self) -> float:
@@ -168,14 +195,12 @@ class Result:
 
         It is the distance that the scenario's wall convention counts (P-12).
         """
-        found = [
-            self._number("smallest_clearance"),
-            *self.clearance.ravel(),
-            *self.dataset["clearance_midpoint"].values,
-            *self.dataset.get("clearance_along", []),
-        ]
-        finite = np.array(found)[np.isfinite(found)]
-        return float(finite.min()) if finite.size else float("nan")
+        names = ("clearance", "clearance_midpoint", "clearance_along")
+        known = [name for name in names if name in self.held]
+        found = [self._number("smallest_clearance")]
+        for values in pieces(self.held, *known):
+            found += [float(np.min(v, initial=np.inf, where=np.isfinite(v))) for v in values]
+        return min(filter(np.isfinite, found), default=float("nan"))
 
     @property
     def first_contact(self) -> float | None:
@@ -229,18 +254,21 @@ class Result:
     @property
     def max_guide_torque(self) -> float:
         """Largest size of the torque at the guide over all records [N m]; NaN if unknown."""
-        return float(np.max(np.abs(self.guide_torque), initial=0.0))
+        return largest(self.held, np.abs, "guide_torque")
 
     @property
     def largest_friction(self) -> float:
         """Largest friction of the wall on the wire over all records, sizes summed over it [N]."""
-        sizes = np.linalg.norm(self.friction_force, axis=2).sum(axis=1)
-        return float(np.max(sizes, initial=0.0))
+
+        def summed(force: Array) -> Array:
+            return np.asarray(np.linalg.norm(force, axis=2).sum(axis=1))
+
+        return largest(self.held, summed, "friction_force")
 
     @property
     def work_of_friction(self) -> float:
         """What friction took in all [J]; 0 without friction."""
-        return float(np.max(self.friction_work, initial=0.0))
+        return self._largest("friction_work")
 
     @property
     def largest_indentation(self) -> float:
@@ -255,7 +283,7 @@ class Result:
     @property
     def largest_lag(self) -> float:
         """Largest difference of the twists of guide and tip, over all records [rad]."""
-        return float(np.max(np.abs(self.guide_twist - self.tip_twist), initial=0.0))
+        return largest(self.held, lambda a, b: np.abs(a - b), "guide_twist", "tip_twist")
 
     @property
     def longest_contact(self) -> float:
@@ -276,15 +304,19 @@ class Result:
             If the length is not positive.
         """
         positive("Result.largest_force_over", "length", length, "m")
-        nodes = self.dataset.sizes["node"]
+        nodes = self.held.sizes["node"]
         whole = self._number("length_scale")
         wire = forces.Layout(whole, nodes, (np.nan, np.nan), np.zeros((0, 4)))
-        return forces.largest_over(wire, forces.sizes(self.contact_force), min(length, whole))
+        found = [
+            forces.largest_over(wire, forces.sizes(force), min(length, whole))
+            for (force,) in pieces(self.held, "contact_force")
+        ]
+        return np.concatenate(found or [np.zeros(0)])
 
     @property
     def largest_tip_offset(self) -> float:
         """Largest distance of the tip from the centreline over all records [m]."""
-        return float(np.max(self.tip_offset, initial=0.0))
+        return self._largest("tip_offset")
 
     @property
     def largest_tip_departure(self) -> float:
@@ -292,8 +324,12 @@ class Result:
 
         NaN if nobody steered, or the navigator has no model.
         """
-        known = self.tip_departure[np.isfinite(self.tip_departure)]
-        return float(known.max()) if known.size else float("nan")
+        known = [
+            float(away[np.isfinite(away)].max())
+            for (away,) in pieces(self.held, "tip_departure")
+            if np.isfinite(away).any()
+        ]
+        return max(known, default=float("nan"))
 
     @property
     def largest_move(self) -> float:
@@ -302,8 +338,13 @@ class Result:
         In quasi-static motion much of it in one go is a wire that snaps: where it ends is one
         equilibrium of several, and only dynamic motion tells which a wire finds.
         """
-        moves = np.linalg.norm(np.diff(self.position, axis=0), axis=2).max(axis=1, initial=0.0)
-        return float(np.max(moves - np.abs(np.diff(self.feed)), initial=0.0))
+        found = 0.0
+        for records in spans(self.held, "position"):
+            on = slice(records.start, records.stop + 1)  # a move is between two records
+            position, feed = (piece(self.held, name, on) for name in ("position", "feed"))
+            moves = np.linalg.norm(np.diff(position, axis=0), axis=2).max(axis=1, initial=0.0)
+            found = max(found, float(np.max(moves - np.abs(np.diff(feed)), initial=0.0)))
+        return found
 
     @property
     def inputs(self) -> Array:
@@ -324,7 +365,7 @@ class Result:
     @property
     def peak_field(self) -> float:
         """Largest magnitude of the flux density at the tip [T]."""
-        return float(np.max(np.linalg.norm(self.field, axis=1), initial=0.0))
+        return largest(self.held, lambda field: np.linalg.norm(field, axis=1), "field")
 
     @property
     def force_scale(self) -> float:
@@ -486,23 +527,24 @@ class Result:
         return self._array("normalized_tip_force")
 
     def __repr__(self) -> str:
-        title = self.dataset.attrs.get("title", "")
+        title = self.held.attrs.get("title", "")
         of = f" of {title!r}" if title else ""
-        words = f"<Result{of}: {self.status}, {self.time.size} records"
-        if self.time.size:
-            words += f", {show(float(self.feed[-1]), 'length')} inserted in "
-            words += f"{show(float(self.time[-1]), 'time')}; peak field "
+        records = self.held.sizes["time"]
+        words = f"<Result{of}: {self.status}, {records} records"
+        if records:
+            words += f", {show(float(at(self.held, 'feed', -1)), 'length')} inserted in "
+            words += f"{show(float(at(self.held, 'time', -1)), 'time')}; peak field "
             words += f"{show(self.peak_field, 'flux_density')}, largest tip force "
             words += f"{show(self.max_tip_force, 'force')}"
         return f"{words}>"
 
     def _array(self, name: str) -> Array:
-        return np.asarray(self.dataset[name].values, dtype=np.float64)
+        return np.asarray(self.held[name].values, dtype=np.float64)
 
     def _largest(self, name: str) -> float:
         """Largest value over all records, no less than zero; NaN if unknown."""
-        return float(np.max(self._array(name), initial=0.0))
+        return largest(self.held, lambda values: values, name)
 
     def _number(self, name: str) -> float:
-        value: Any = self.dataset.attrs[name]
+        value: Any = self.held.attrs[name]
         return float(np.asarray(value).reshape(()))

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import errno
+import math
 import os
+import shutil
 import time
+from array import array
 from bisect import bisect_left
+from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
@@ -16,8 +20,9 @@ import numpy as np
 import magwire
 from magwire.engine.record import Record, RunInfo
 from magwire.errors import ResultError
-from magwire.files import claimed
+from magwire.files import claimed, draft_of
 from magwire.interrupt import Terminated
+from magwire.pieces import Column, Plain
 from magwire.results import disk
 from magwire.results.contract import (
     CONSTANTS,
@@ -35,8 +40,6 @@ from magwire.results.contract import (
 )
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from magwire.results.result import Result
 
 FLUSH_SECONDS = 2.0
@@ -44,6 +47,10 @@ FLUSH_SECONDS = 2.0
 FLUSH_SHARE = 0.03
 """Share of the wall time that flushing may take: flushes of a very large file come less often."""
 CHUNK_BYTES = 2**16
+MOST_WAITING = 2**22
+"""Memory of the records that wait for a flush, about [bytes]."""
+RECORD_BYTES = 4096
+"""What a record takes besides its numbers, about [bytes]."""
 SAME = 1e-9
 """Times that differ by less are the same [s]."""
 
@@ -51,12 +58,14 @@ SAME = 1e-9
 class Writer:
     """Takes the records of a run and makes its result.
 
-    Between flushes records wait in memory. A flush appends them to a copy of the file, which then
-    takes the place of the file in one step: a process that is killed at any time leaves a file that
-    is complete up to its last flush, and others may read it while the run goes. As a context
-    manager the writer closes itself when the block is left by an exception: "interrupted" after
-    Ctrl-C, "terminated" when the process is told to end, "failed" else. No other process may write
-    the same file meanwhile.
+    Between flushes records wait in memory; where there are too many of them, as the file is large
+    and flushes come less often, in a draft of the file. A flush appends them to a copy of the file,
+    which then takes the place of the file in one step: a process that is killed at any time leaves
+    a file that is complete up to its last flush, and others may read it while the run goes.
+
+    As a context manager the writer closes itself when the block is left by an exception:
+    "interrupted" after Ctrl-C, "terminated" when the process is told to end, "failed" else. No
+    other process may write the same file meanwhile.
 
     Parameters
     ----------
@@ -80,12 +89,16 @@ class Writer:
         self.path = None if path is None else Path(path)
         self.closed = False
         self._waiting: list[Record] = []
-        self._times: list[float] = []  # of all records, in the file or waiting
+        self._times = array("d")  # of all records, in the file or waiting
         self._last: Record | None = None
         self._written = 0
         self._due = 0.0
+        self._draft: Path | None = None
+        self._flushed: tuple[int, Record | None] = (0, None)
         self._claim = ExitStack()
         self._attributes = opening_attributes(info, self.layout, magwire.__version__)
+        row = sum(v.dtype.itemsize * self._numbers(v) for v in VARIABLES.values())
+        self._most = max(1, MOST_WAITING // (row + RECORD_BYTES))
         self._attributes |= {"status": "running", "message": ""} | running_attributes(None)
         if self.path is not None:
             self._begin(self.path)
@@ -95,8 +108,12 @@ class Writer:
         self._last = record
         self._waiting.append(record)
         self._times.append(record.time)
-        if self.path is not None and time.monotonic() >= self._due:
+        if self.path is None:
+            return
+        if time.monotonic() >= self._due:
             self.flush()
+        elif len(self._waiting) >= self._most:
+            self._try(self._put_aside)
 
     def rewind(self, record: Record) -> None:
         """Go on from a record of a wire that went back: what was recorded since is dropped.
@@ -107,20 +124,16 @@ class Writer:
         del self._times[kept:]
         del self._waiting[max(0, kept - self._written) :]
         self._written = min(self._written, kept)
+        if kept < self._flushed[0]:
+            self._flushed = (kept, record)
         self.append(record)
 
     def flush(self) -> None:
         """Bring what waits in memory into the file, so that it survives the end of the process."""
-        if self.path is None or self.closed or not self._waiting:
+        if self.path is None or self.closed or not (self._waiting or self._draft):
             return
         begin = time.monotonic()
-        try:
-            self._commit(self.path)
-        except PermissionError:
-            # On Windows, while others read the file. Nothing is lost: the next flush takes it all.
-            pass
-        except OSError as error:
-            raise _unwritable(self.path, error) from None
+        self._try(self._commit)
         end = time.monotonic()
         self._due = end + max(FLUSH_SECONDS, (end - begin) / FLUSH_SHARE)
 
@@ -145,6 +158,7 @@ class Writer:
             except OSError as error:
                 raise _unwritable(self.path, error) from None
             finally:
+                self._drop_draft()
                 self._claim.close()
 
     def result(self) -> Result:
@@ -153,7 +167,7 @@ class Writer:
 
         if not self.closed:
             raise ResultError("A result can be had from its writer only after the run has ended.")
-        return Result(self._dataset()) if self.path is None else Result.load(self.path)
+        return Result.of(self._held()) if self.path is None else Result.load(self.path)
 
     def __enter__(self) -> Self:
         return self
@@ -184,18 +198,17 @@ class Writer:
         derived = derive(columns, self.layout)
         return columns | {name: derived[name] for name in derived if self._exists(DERIVED[name])}
 
-    def _dataset(self) -> xr.Dataset:
-        import xarray as xr
-
-        data: dict[str, Any] = {}
+    def _held(self) -> Plain:
+        """What has been recorded in memory."""
+        data: dict[str, Column] = {}
         for name, column in self._columns(self._waiting).items():
             variable = (VARIABLES | DERIVED)[name]
             notes = {"units": variable.units, "long_name": variable.long_name}
-            data[name] = (variable.dims, column, notes | dict(variable.extra))
+            data[name] = Column(variable.dims, column, notes | dict(variable.extra))
         for name, constant in self._constants().items():
             notes = {"units": constant.units, "long_name": constant.long_name}
-            data[name] = (constant.dims, self._constant(constant), notes)
-        return xr.Dataset(data, attrs=self._attributes).set_coords("time")
+            data[name] = Column(constant.dims, self._constant(constant), notes)
+        return Plain(data, self._attributes)
 
     def _constants(self) -> dict[str, Constant]:
         """The variables without time; a run in open space has none."""
@@ -220,8 +233,29 @@ class Writer:
             self._claim.close()
             raise _unwritable(path, error) from None
 
+    def _try(self, act: Callable[[Path], None]) -> None:
+        """Write while the run goes."""
+        if self.path is None:
+            return
+        before = self._written
+        try:
+            act(self.path)
+        except PermissionError as error:
+            # On Windows, while others read the file: the next flush takes it all, if it is there.
+            if self._written < before:
+                raise _unwritable(self.path, error) from None
+        except OSError as error:
+            raise _unwritable(self.path, error) from None
+
     def _commit(self, path: Path, **attributes: str) -> None:
-        """Add what waits, and these attributes, to the file: all of it or nothing.
+        """Add what waits, and these attributes, to the file: all of it or nothing."""
+        self._put_aside(path, **attributes)
+        if self._draft is not None:
+            self._draft.replace(path)
+        self._draft, self._flushed = None, (self._written, self._last)
+
+    def _put_aside(self, path: Path, **attributes: str) -> None:
+        """Add what waits to a draft that is to take the place of the file.
 
         Rows are added through h5py, as all that is special about NetCDF-4 is in the file by now.
         """
@@ -235,9 +269,30 @@ class Writer:
                 file.attrs.modify(name, value)
             file.attrs.update(attributes)
 
-        disk.revise(path, add)
+        try:
+            if self._draft is None:
+                self._draft = draft_of(path)
+                shutil.copyfile(path, self._draft)
+            disk.change(self._draft, add)
+        except BaseException:
+            # Rows that were put aside are lost with the draft, and those that follow would not fit.
+            self._drop_draft()
+            if self._written > self._flushed[0]:
+                self._waiting.clear()
+                self._written, self._last = self._flushed
+                del self._times[self._written :]
+            raise
         self._written = last
         self._waiting.clear()
+
+    def _drop_draft(self) -> None:
+        if self._draft is not None:
+            self._draft.unlink(missing_ok=True)
+            self._draft = None
+
+    def _numbers(self, variable: Variable | Derived) -> int:
+        """How many numbers a record has of a variable."""
+        return math.prod(self.sizes[dim] for dim in variable.dims[1:])
 
     def _lay_out(self, file: Any) -> None:
         """All that is known from the start, and no records."""

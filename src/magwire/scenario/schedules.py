@@ -91,10 +91,13 @@ def schedule_of(result: Result) -> Schedule:
     course = last_tries(fed)
     flux = result.field[course]
     if result.scenario:
+        from magwire.pieces import spans
         from magwire.scenario.reader import parse
 
         own = parse(result.scenario, source="of the result").field.build()
-        flux = flux - own.at(result.position[course, -1])[0]
+        nodes = result.held.variables["position"]
+        tips = [nodes[records, -1].values for records in spans(result.held, "position")]
+        flux = flux - own.at(np.concatenate(tips)[course])[0]
     return Schedule(fed[course], flux)
 
 

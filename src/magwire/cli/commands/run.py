@@ -114,7 +114,7 @@ def _report(
     if passive is not None:
         for line in summary.gains(result, passive):
             say(line)
-    if steered and result.time.size:
+    if steered and result.held.sizes["time"]:
         with writing_to(folder):
             _write_course(described, result, folder / SCHEDULE)
     status = max(outcome(run) for run in results)
@@ -124,7 +124,7 @@ def _report(
         from magwire import plot as pictures
 
         with writing_to(folder):
-            pictures.save(result.dataset, folder, passive=passive.dataset if passive else None)
+            pictures.save(result.held, folder, passive=passive.held if passive else None)
     say(f"{'written to':{summary.COLUMN}}{folder}")
     return status
 

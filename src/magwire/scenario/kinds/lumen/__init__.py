@@ -13,7 +13,7 @@ from magwire.units import show
 if TYPE_CHECKING:
     from magwire.lumen import Lumen
 
-Points = Annotated[int, Whole(5, 1_000_000)]
+Points = Annotated[int, Whole(5, 200_000)]  # of a million, a tree takes 1.4 GB
 
 
 class LumenTable(ModelTable):
