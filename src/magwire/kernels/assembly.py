@@ -25,7 +25,7 @@ from magwire.kernels.blocks import (
 from magwire.kernels.frames import after, material_frames
 from magwire.kernels.groups import add_rows, any_of, column, group, numbers, total, vectors
 from magwire.kernels.hinge import hinge, material_frame
-from magwire.kernels.lanes import following, four, load, store, transposed
+from magwire.kernels.lanes import clear_rows, following, four, load, splat, store, transposed
 from magwire.kernels.magnetics import (
     force_block,
     moment_vector,
@@ -46,15 +46,6 @@ FIRST = 7
 LEAD = 8
 
 
-@kernel
-def clear(array, first, last):
-    """Set rows first ... last - 1 to zero, of an array whose rows are four numbers or multiples."""
-    none = four(0.0, 0.0, 0.0, 0.0)
-    for i in range(first, last):
-        for k in range(0, array.shape[1], 4):
-            store(array, i, k, none)
-
-
 @part
 def add_elements(rod, field, state, mouth, gradient, band):
     """Bending and twisting of every hinge, and stretching and torque of the edge after it.
@@ -72,7 +63,7 @@ def add_elements(rod, field, state, mouth, gradient, band):
     )
     edge = before, m1, m2, numbers(state.length, group(held - 1, held - 1))
     theta_e = column(state.q, group(held - 1, held - 1), 3)
-    energy = four(0.0, 0.0, 0.0, 0.0)
+    energy = splat(0.0)
     magnetic = field.uniform[0]
     u = field.strength
     for i in range(held, last + 1, 4):
@@ -266,7 +257,7 @@ def _add_magnet(field, state, j, m, gradient, band, r):
 def add_bodies(rod, state, motion, held, gradient, band):
     """Inertia of the time step and gravity (P-14)."""
     nodes = state.q.shape[0]
-    energy = four(0.0, 0.0, 0.0, 0.0)
+    energy = splat(0.0)
     for i in range(held, nodes):
         mass = rod.mass[i] * motion.factor if i > held else 0.0
         inertia = rod.inertia[i] * motion.factor if i < nodes - 1 else 0.0
@@ -296,9 +287,9 @@ def assemble(model, state, mouth, motion, gradient, band):
     rod, field, wall, lumen = model
     held = mouth.held
     nodes = state.q.shape[0]
-    clear(gradient, held - 1, nodes)
+    clear_rows(gradient, held - 1, nodes)
     if len(band) > 0:
-        clear(band, 0, 4 * (nodes - held + 1))
+        clear_rows(band, 0, 4 * (nodes - held + 1))
     contact, nearest = add_walls(rod, lumen, wall, state, held, gradient, band)
     if contact == inf:
         return inf, nearest

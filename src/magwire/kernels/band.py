@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from magwire.kernels._jit import kernel
 from magwire.kernels.lanes import first as at0
-from magwire.kernels.lanes import four, load, store, transposed
+from magwire.kernels.lanes import four, load, splat, store, transposed
 from magwire.kernels.lanes import fourth as at3
 from magwire.kernels.lanes import second as at1
 from magwire.kernels.lanes import third as at2
@@ -41,7 +41,7 @@ def factor(band, first, last):
 
     Returns -1, or the row where A is found not to be positive definite.
     """
-    none = four(0.0, 0.0, 0.0, 0.0)
+    none = splat(0.0)
     t0, t1, t2, t3 = (none, none), (none, none), (none, none), (none, none)
     u0, u1, u2 = none, none, none
     for j in range(first - first % 4, last, 4):

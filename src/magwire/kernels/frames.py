@@ -6,9 +6,17 @@ from math import cos, floor, pi, sin
 
 from magwire.kernels._jit import kernel
 from magwire.kernels.angles import FARTHEST, arctan_series, sine_cosine
-from magwire.kernels.groups import group, largest_of, numbers, put_numbers, put_vectors, rows, vectors
+from magwire.kernels.groups import (
+    group,
+    largest_of,
+    numbers,
+    put_numbers,
+    put_vectors,
+    rows,
+    vectors,
+)
 from magwire.kernels.hinge import angle_between, transport
-from magwire.kernels.lanes import first, four, following, fourth, second, third
+from magwire.kernels.lanes import first, following, four, fourth, second, splat, third
 from magwire.kernels.vectors import combine, cross, dot, norm, scale, sub
 
 SMALL = 0.2  # sine over one plus cosine up to which an angle is taken from its series
@@ -18,7 +26,7 @@ SMALL = 0.2  # sine over one plus cosine up to which an angle is taken from its 
 def update_frames(base, state, held):
     """Tangents and frames of ``state``, transported from ``base`` along time (P-2)."""
     last = state.length.shape[0] - 1
-    t_e = d1_e = (four(0.0, 0.0, 0.0, 0.0), four(0.0, 0.0, 0.0, 0.0), four(0.0, 0.0, 0.0, 0.0))
+    t_e = d1_e = (splat(0.0), splat(0.0), splat(0.0))
     for j in range(held - 1, last + 1, 4):
         g = group(j, last)
         count = min(4, last + 1 - j)
@@ -34,7 +42,12 @@ def update_frames(base, state, held):
         if j == held - 1:
             t_e, d1_e = t, d1  # the first edge has none before it
         kept = first(numbers(state.twist, g))
-        put_numbers(state.twist, j, count, twist_between(after(d1_e, d1), after(t_e, t), d1, t, numbers(base.twist, g)))
+        put_numbers(
+            state.twist,
+            j,
+            count,
+            twist_between(after(d1_e, d1), after(t_e, t), d1, t, numbers(base.twist, g)),
+        )
         if j == held - 1:
             state.twist[j] = kept
         t_e, d1_e = t, d1

@@ -16,6 +16,7 @@ from magwire.kernels.lanes import (
     store,
     third,
     transposed,
+    where,
 )
 
 
@@ -31,6 +32,13 @@ def rows(array, g):
     return transposed(
         load(array, g[0], 0), load(array, g[1], 0), load(array, g[2], 0), load(array, g[3], 0)
     )
+
+
+@kernel
+def places(q, g):
+    """Positions of the nodes g of a configuration, by component."""
+    x, y, z, _ = rows(q, g)
+    return x, y, z
 
 
 @kernel
@@ -109,3 +117,15 @@ def largest_of(v):
 def any_of(v):
     """Whether a component of four vectors is not zero."""
     return largest_of(abs(v[0]) + abs(v[1]) + abs(v[2])) > 0.0
+
+
+@kernel
+def smallest_of(v):
+    """Smallest of four numbers."""
+    return min(min(first(v), second(v)), min(third(v), fourth(v)))
+
+
+@kernel
+def larger(a, b):
+    """Of each lane, the larger of two numbers."""
+    return where(a - b, a, b)

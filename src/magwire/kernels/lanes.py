@@ -98,6 +98,12 @@ def four(typing: Any, a: Any, b: Any, c: Any, d: Any) -> Any:
     return FOUR(types.float64, types.float64, types.float64, types.float64), emit
 
 
+@intrinsic  # type: ignore[untyped-decorator]
+def splat(typing: Any, value: Any) -> Any:
+    """Four times the same number."""
+    return FOUR(types.float64), lambda context, builder, sig, args: _splat(builder, args[0])
+
+
 def _picked(k: int) -> Any:
     @intrinsic  # type: ignore[untyped-decorator]
     def pick(typing: Any, v: Any) -> Any:
@@ -142,9 +148,7 @@ def transposed(typing: Any, a: Any, b: Any, c: Any, d: Any) -> Any:
 
     def emit(context: Any, builder: Any, sig: Any, args: Any) -> Any:
         def mixed(x: Any, y: Any, order: list[int]) -> Any:
-            return builder.shuffle_vector(
-                x, y, ir.Constant(ir.VectorType(_INDEX, LANES), order)
-            )
+            return builder.shuffle_vector(x, y, ir.Constant(ir.VectorType(_INDEX, LANES), order))
 
         a, b, c, d = args
         even, odd = mixed(a, b, [0, 4, 2, 6]), mixed(a, b, [1, 5, 3, 7])
@@ -197,3 +201,43 @@ def store(typing: Any, array: Any, i: Any, k: Any, v: Any) -> Any:
         return context.get_dummy_value()
 
     return types.none(array, types.intp, types.intp, FOUR), emit
+
+
+def _block(context: Any, builder: Any, kind: Any, array: Any, begin: Any, end: Any) -> Any:
+    """Where rows begin ... end - 1 of an array are, and how many bytes they take."""
+    made = context.make_array(kind)(context, builder, array)
+    size = ir.Constant(begin.type, 8)
+    place = begin
+    if kind.ndim == 2:
+        columns = cgutils.unpack_tuple(builder, made.shape)[1]
+        size, place = builder.mul(size, columns), builder.mul(begin, columns)
+    return builder.gep(made.data, [place]), builder.mul(builder.sub(end, begin), size)
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def copy_rows(typing: Any, source: Any, target: Any, begin: Any, end: Any) -> Any:
+    """Copy rows begin ... end - 1 of an array to another one of as many columns."""
+    if not (_dense(source) and _dense(target) and source.ndim == target.ndim):
+        return None
+
+    def emit(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        start, size = _block(context, builder, sig.args[0], args[0], args[2], args[3])
+        to, _ = _block(context, builder, sig.args[1], args[1], args[2], args[3])
+        cgutils.raw_memcpy(builder, to, start, size, 1, align=8)
+        return context.get_dummy_value()
+
+    return types.none(source, target, types.intp, types.intp), emit
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def clear_rows(typing: Any, array: Any, begin: Any, end: Any) -> Any:
+    """Set rows begin ... end - 1 of an array to zero."""
+    if not _dense(array):
+        return None
+
+    def emit(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        start, size = _block(context, builder, sig.args[0], args[0], args[1], args[2])
+        cgutils.memset(builder, start, size, 0)
+        return context.get_dummy_value()
+
+    return types.none(array, types.intp, types.intp), emit

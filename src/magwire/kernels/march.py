@@ -7,10 +7,11 @@ from typing import NamedTuple
 
 from magwire.kernels._jit import kernel, part
 from magwire.kernels.arrays import Array, Motion, Mouth
-from magwire.kernels.assembly import clear
+from magwire.kernels.assembly import FIRST
 from magwire.kernels.frames import update_frames
 from magwire.kernels.guide import change_held, find_mouth, place_held
 from magwire.kernels.history import copy_configuration, copy_state
+from magwire.kernels.lanes import clear_rows, load, store
 from magwire.kernels.newton import CONVERGED, TOO_MANY_ITERATIONS, Limits, newton, take_step
 from magwire.kernels.scatter import add_vector
 from magwire.kernels.sources.steer import steer
@@ -58,7 +59,7 @@ def tip_force(model, state, held, work):
     """Size of the wall force on the tip node (P-13)."""
     rod, _, wall, lumen = model
     tip = state.q.shape[0] - 1
-    clear(work.gradient, tip - 1, tip + 1)
+    clear_rows(work.gradient, tip - 1, tip + 1)
     _, _, pushed, _ = press(rod, lumen, wall, row(state.q, tip), tip)
     add_vector(work.gradient, tip, 1.0, pushed)
     if held < tip:
@@ -70,10 +71,10 @@ def tip_force(model, state, held, work):
 @part
 def predict(rod, lumen, wall, state, velocity, held, dt, work, slides):
     """Move the free unknowns on at their velocities, as far as no point crosses the wall."""
-    for i in range(held - 1, state.q.shape[0]):
-        for c in range(4):
-            free = i > held or (i == held and c == 3)
-            work.step[4 * (i - held + 1) + c] = dt * velocity[i, c] if free else 0.0
+    for i in range(held, state.q.shape[0]):
+        store(work.step, 4 * (i - held + 1), 0, dt * load(velocity, i, 0))
+    for r in range(FIRST):
+        work.step[r] = 0.0
     share = allowed_part(rod, lumen, wall, state.q, work.step, held, 0.0)
     if slides and share < 1.0:
         slide(rod, lumen, wall, state.q, work.step, held, 1.0, work.way)
@@ -84,8 +85,7 @@ def predict(rod, lumen, wall, state, velocity, held, dt, work, slides):
             copy_configuration(work.trial, state, held)
             return
     for i in range(held, state.q.shape[0]):
-        for c in range(4):
-            state.q[i, c] += share * work.step[4 * (i - held + 1) + c]
+        store(state.q, i, 0, load(state.q, i, 0) + share * load(work.step, 4 * (i - held + 1), 0))
 
 
 @part
@@ -118,9 +118,9 @@ def time_step(model, guide, state, work, limits, slides, start, end, dt, drive):
     drag = 1.0 + drive.damping * dt
     if not drive.inertia:
         follow_tangents(state, held, moves[2])
+    onwards = dt / drag
     for i in range(held, nodes):
-        for c in range(4):
-            work.target[i, c] = state.q[i, c] + dt / drag * state.velocity[i, c]
+        store(work.target, i, 0, load(state.q, i, 0) + onwards * load(state.velocity, i, 0))
     predict(rod, lumen, wall, work.ahead, state.velocity, held, dt, work, slides)
     place_held(rod, guide, work.ahead, held - 1, held, end[0], end[1])
     update_frames(state, work.ahead, held)
@@ -164,8 +164,7 @@ def accept(rod, frictions, state, work, dt, end):
     held = state.held[0]
     keep_contacts(frictions, rod, state, work.ahead)
     for i in range(held, state.q.shape[0]):
-        for c in range(4):
-            state.velocity[i, c] = (work.ahead.q[i, c] - state.q[i, c]) / dt
+        store(state.velocity, i, 0, (load(work.ahead.q, i, 0) - load(state.q, i, 0)) / dt)
     copy_configuration(work.ahead, state, held)
     state.guide[0], state.guide[1] = end
 

@@ -7,10 +7,12 @@ The gap is 1-Lipschitz, so a point may move by less than its gap. Repeating that
 from __future__ import annotations
 
 from magwire.kernels._jit import kernel, part
+from magwire.kernels.groups import group, numbers, places, rows
+from magwire.kernels.lanes import load, transposed
 from magwire.kernels.vectors import combine, norm, row
 from magwire.kernels.wall.between import clear_edge, keep_off
 from magwire.kernels.wall.gap import gap_value
-from magwire.kernels.wall.push import clear_of_wall, query
+from magwire.kernels.wall.push import all_clear, clear_of_wall, query
 
 CAUTION = 0.9  # part of the safe distance that one hop uses
 CLOSEST = 0.1  # a step may shrink the clearance to this part of itself, not further
@@ -81,12 +83,23 @@ def allowed_part(rod, lumen, wall, q, step, held, leeway):
     share = 1.0
     nodes = q.shape[0]
     lead = 4 * (held - 1)
-    for i in range(held + 1, nodes):
-        r = 4 * i - lead
-        x, dx = row(q, i), (step[r], step[r + 1], step[r + 2])
-        offset = rod.offset[i] - leeway
-        if not clear_of_wall(x, wall.known[i], share * norm(dx) / CAUTION + offset):
-            share = travel(lumen, x, dx, offset, wall.known[i], wall.jet[i], share)
+    for begin in range(held + 1, nodes, 4):
+        g = group(begin, nodes - 1)
+        dx, dy, dz, _ = transposed(
+            load(step, 4 * g[0] - lead, 0),
+            load(step, 4 * g[1] - lead, 0),
+            load(step, 4 * g[2] - lead, 0),
+            load(step, 4 * g[3] - lead, 0),
+        )
+        reach = (share / CAUTION) * norm((dx, dy, dz)) + (numbers(rod.offset, g) - leeway)
+        if all_clear(places(q, g), rows(wall.known, g), reach):
+            continue
+        for i in range(begin, min(begin + 4, nodes)):
+            r = 4 * i - lead
+            x, move = row(q, i), (step[r], step[r + 1], step[r + 2])
+            offset = rod.offset[i] - leeway
+            if not clear_of_wall(x, wall.known[i], share * norm(move) / CAUTION + offset):
+                share = travel(lumen, x, move, offset, wall.known[i], wall.jet[i], share)
     if wall.between.parts > 1:
         for j in range(held, nodes - 1):
             share = edge_part(rod, lumen, wall, q, step, j, 4 * j - lead, share, leeway)
