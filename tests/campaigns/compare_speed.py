@@ -15,7 +15,6 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import statistics
 import subprocess
 import sys
 from pathlib import Path
@@ -30,15 +29,15 @@ PUSH = 72.0  # mm
 
 def plant_of(name: str, dt: float) -> tuple[Any, Any]:
     """A plant at the start of a job, and its drive."""
-    from magwire.evidence.bench.engines import across, wire
     from magwire.engine.command import Drive
     from magwire.engine.plant import Plant
+    from magwire.evidence.bench.engines import across, wire
+    from magwire.evidence.verify.mujoco_rod import DAMPING
     from magwire.field import UniformField
     from magwire.lumen import Lumen
     from magwire.operate import March
     from magwire.scenario import load
     from magwire.simulation import Simulation
-    from magwire.evidence.verify.mujoco_rod import DAMPING
 
     if name == CANTILEVER:
         made = wire()

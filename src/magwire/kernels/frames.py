@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import cos, floor, pi, sin
 
-from magwire.kernels._jit import kernel
+from magwire.kernels._jit import kernel, short
 from magwire.kernels.angles import FARTHEST, arctan_series, sine_cosine
 from magwire.kernels.groups import (
     group,
@@ -22,7 +22,7 @@ from magwire.kernels.vectors import combine, cross, dot, norm, scale, sub
 SMALL = 0.2  # sine over one plus cosine up to which an angle is taken from its series
 
 
-@kernel
+@short
 def update_frames(base, state, held):
     """Tangents and frames of ``state``, transported from ``base`` along time (P-2)."""
     last = state.length.shape[0] - 1

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from magwire.kernels._jit import kernel
+from magwire.kernels._jit import kernel, short
 from magwire.kernels.lanes import copy_rows
 
 
-@kernel
+@short
 def copy_configuration(source, target, held):
     """Copy where the wire is, from the guide's last edge to the tip."""
     begin, nodes = held - 1, source.q.shape[0]

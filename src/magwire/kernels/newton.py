@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf
 from typing import NamedTuple
 
-from magwire.kernels._jit import kernel, part
+from magwire.kernels._jit import kernel, part, short
 from magwire.kernels.assembly import FIRST, assemble
 from magwire.kernels.band import factor, solve
 from magwire.kernels.frames import update_frames
@@ -109,7 +109,7 @@ def find_step(model, state, mouth, motion, work, limits):
     return count
 
 
-@kernel
+@short
 def take_step(a, b, held, part, step):
     """Configuration b = a + part * step, with its frames transported from a."""
     nodes = a.q.shape[0]

@@ -6,7 +6,7 @@ The gap is 1-Lipschitz, so a point may move by less than its gap. Repeating that
 
 from __future__ import annotations
 
-from magwire.kernels._jit import kernel, part
+from magwire.kernels._jit import kernel, part, short
 from magwire.kernels.groups import group, numbers, places, rows
 from magwire.kernels.lanes import load, transposed
 from magwire.kernels.vectors import combine, norm, row
@@ -74,7 +74,7 @@ def edge_part(rod, lumen, wall, q, step, j, r, limit, leeway):
     return limit
 
 
-@kernel
+@short
 def allowed_part(rod, lumen, wall, q, step, held, leeway):
     """Largest part of a step (rows of the band's layout) that keeps the wire inside.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import inf
 
-from magwire.kernels._jit import kernel
+from magwire.kernels._jit import short
 from magwire.kernels.groups import group, numbers, places, rows
 from magwire.kernels.scatter import add_diagonal, add_vector
 from magwire.kernels.vectors import row
@@ -12,7 +12,7 @@ from magwire.kernels.wall.between import add_between
 from magwire.kernels.wall.push import all_clear, press, press_tube
 
 
-@kernel
+@short
 def add_walls(rod, lumen, wall, state, held, gradient, band):
     """Barrier energy of the wire past the last held node (P-11, P-13).
 
