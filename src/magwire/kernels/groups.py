@@ -110,7 +110,7 @@ def total(v):
 @kernel
 def largest_of(v):
     """Largest of four numbers."""
-    return max(first(v), second(v), third(v), fourth(v))
+    return max(max(first(v), second(v)), max(third(v), fourth(v)))
 
 
 @kernel
@@ -122,7 +122,7 @@ def any_of(v):
 @kernel
 def smallest_of(v):
     """Smallest of four numbers."""
-    return min(first(v), second(v), third(v), fourth(v))
+    return min(min(first(v), second(v)), min(third(v), fourth(v)))
 
 
 @kernel
