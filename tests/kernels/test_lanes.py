@@ -95,6 +95,6 @@ def test_what_is_not_finite_is_an_infinite_residual() -> None:
 
 def test_longest_component_of_a_step() -> None:
     step = np.zeros(60)
-    step[8:39] = np.random.default_rng(1).uniform(-1.0, 1.0, 31)
-    step[38] = -3.0
+    step[7:35] = np.random.default_rng(1).uniform(-1.0, 1.0, 28)
+    step[34] = -3.0
     assert longest(step, 1, 9) == 3.0
