@@ -20,7 +20,7 @@ from magwire.errors import InputError, array, instance, nonnegative, one_of
 from magwire.field import FieldSource, UniformField, as_field
 from magwire.kernels.arrays import JET, Bed, Bulges, Guide, Rod, State, Tube, Wall, Work
 from magwire.kernels.arrays import Friction as FrictionArrays
-from magwire.kernels.band import HALF_BANDWIDTH, WIDTH
+from magwire.kernels.band import WIDTH
 from magwire.kernels.centreline import LumenArrays, Moving
 from magwire.kernels.newton import Limits
 from magwire.kernels.sources.steer import steer
@@ -457,7 +457,7 @@ class System:
     def new_work(self) -> Work:
         """Scratch arrays of the solver."""
         nodes = self.wire.nodes + 1
-        rows = 4 * (nodes + 1) + HALF_BANDWIDTH
+        rows = 4 * (nodes + 1) + WIDTH
         return Work(
             gradient=np.zeros((nodes, 4)),
             band=np.zeros((rows, WIDTH)),

@@ -55,12 +55,6 @@ def curvatures(h, m1_e, m2_e, m1_f, m2_f):
 
 
 @kernel
-def bending_energy(k, w1, w2):
-    """Energy from the bending moments w = k (kappa - rest)."""
-    return 0.5 * (w1 * w1 + w2 * w2) / k
-
-
-@kernel
 def bending_gradient(c1, c2, w1, w2):
     """Derivatives by edge e, edge f, theta e, theta f."""
     return (
@@ -117,9 +111,10 @@ def bending_hessian(h, k, c1, c2, w1, w2, frames):
         h, h.inv_f, h.te, 1.0, b_f, k, c1.by_f, c2.by_f, c1.by_theta_f, c2.by_theta_f
     )
 
-    tt_ee = k * (c1.by_theta_e**2 + c2.by_theta_e**2) - 0.5 * dot(h.binormal, a_e)
-    tt_ff = k * (c1.by_theta_f**2 + c2.by_theta_f**2) - 0.5 * dot(h.binormal, a_f)
-    tt_ef = k * (c1.by_theta_e * c1.by_theta_f + c2.by_theta_e * c2.by_theta_f)
+    e1, e2, f1, f2 = c1.by_theta_e, c2.by_theta_e, c1.by_theta_f, c2.by_theta_f
+    tt_ee = k * (e1 * e1 + e2 * e2) - 0.5 * dot(h.binormal, a_e)
+    tt_ff = k * (f1 * f1 + f2 * f2) - 0.5 * dot(h.binormal, a_f)
+    tt_ef = k * (e1 * f1 + e2 * f2)
     return ee, ff, ef, (e_te, e_tf, f_te, f_tf), (tt_ee, tt_ef, tt_ff)
 
 

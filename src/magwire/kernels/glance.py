@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import cos, inf, sin, sqrt
 
 from magwire.kernels._jit import kernel, part
-from magwire.kernels.assembly import clear
 from magwire.kernels.hinge import material_frame
+from magwire.kernels.lanes import clear_rows
 from magwire.kernels.vectors import combine, dot, norm, row, scale, sub
 from magwire.kernels.wall.contact import add_walls
 from magwire.kernels.wall.foundation import at_node, pressed_in
@@ -92,7 +92,7 @@ def glance(model, state, work, patch, turn, seen):
     for c in range(3):
         seen[c] = tip[c]
         seen[3 + c] = along[c]
-    clear(work.gradient, 0, last + 1)
+    clear_rows(work.gradient, 0, last + 1)
     _, nearest = add_walls(rod, lumen, wall, state, held, work.gradient, work.no_band)
     total = 0.0
     for i in range(held, last + 1):

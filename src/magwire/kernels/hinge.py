@@ -63,6 +63,12 @@ def material_frame(d1, t, theta):
 
 
 @kernel
+def angle_between(sine, cosine):
+    """Angle of a sine and a cosine."""
+    return atan2(sine, cosine)
+
+
+@kernel
 def reference_twist(d1_e, te, d1_f, tf, before):
     """Angle from the space-parallel transport of d1_e to d1_f, on the branch next to ``before``."""
     carried = transport(d1_e, te, tf)

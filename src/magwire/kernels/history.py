@@ -2,39 +2,32 @@
 
 from __future__ import annotations
 
-from magwire.kernels._jit import kernel
+from magwire.kernels._jit import kernel, short
+from magwire.kernels.lanes import copy_rows
 
 
-@kernel
+@short
 def copy_configuration(source, target, held):
     """Copy where the wire is, from the guide's last edge to the tip."""
-    nodes = source.q.shape[0]
-    for i in range(held - 1, nodes):
-        target.twist[i] = source.twist[i]
-        for c in range(4):
-            target.q[i, c] = source.q[i, c]
-        if i < nodes - 1:
-            target.length[i] = source.length[i]
-            for c in range(3):
-                target.tangent[i, c] = source.tangent[i, c]
-                target.director[i, c] = source.director[i, c]
+    begin, nodes = held - 1, source.q.shape[0]
+    copy_rows(source.q, target.q, begin, nodes)
+    copy_rows(source.twist, target.twist, begin, nodes)
+    copy_rows(source.length, target.length, begin, nodes - 1)
+    copy_rows(source.tangent, target.tangent, begin, nodes - 1)
+    copy_rows(source.director, target.director, begin, nodes - 1)
 
 
 @kernel
 def copy_state(source, target):
     """Copy all that a wire carries from one step to the next."""
     copy_configuration(source, target, 1)
-    for i in range(source.q.shape[0]):
-        for c in range(4):
-            target.velocity[i, c] = source.velocity[i, c]
+    copy_rows(source.velocity, target.velocity, 0, source.velocity.shape[0])
     for c in range(2):
         target.guide[c] = source.guide[c]
     target.held[0] = source.held[0]
     for k in range(source.inputs.shape[0]):
         target.inputs[k] = source.inputs[k]
-    for i in range(source.contact.shape[0]):
-        for c in range(source.contact.shape[1]):
-            target.contact[i, c] = source.contact[i, c]
+    copy_rows(source.contact, target.contact, 0, source.contact.shape[0])
     for c in range(2):
         target.spent[c] = source.spent[c]
     target.clock[0] = source.clock[0]

@@ -7,10 +7,11 @@ from typing import NamedTuple
 
 from magwire.kernels._jit import kernel, part
 from magwire.kernels.arrays import Array, Motion, Mouth
-from magwire.kernels.assembly import clear
+from magwire.kernels.assembly import FIRST
 from magwire.kernels.frames import update_frames
 from magwire.kernels.guide import change_held, find_mouth, place_held
 from magwire.kernels.history import copy_configuration, copy_state
+from magwire.kernels.lanes import clear_rows, load, store
 from magwire.kernels.newton import (
     CONVERGED,
     HALVINGS,
@@ -67,7 +68,7 @@ def tip_force(model, state, held, work):
     """Size of the wall force on the tip node (P-13)."""
     rod, _, wall, lumen = model
     tip = state.q.shape[0] - 1
-    clear(work.gradient, tip - 1, tip + 1)
+    clear_rows(work.gradient, tip - 1, tip + 1)
     _, _, pushed, _ = press(rod, lumen, wall, row(state.q, tip), tip)
     add_vector(work.gradient, tip, 1.0, pushed)
     if held < tip:
@@ -82,11 +83,10 @@ def predict(rod, lumen, wall, state, before, held, dt, work, slides, inertia):
 
     ``state`` begins as ``before``, or where a wall that moves has carried it.
     """
-    velocity = before.velocity
-    for i in range(held - 1, state.q.shape[0]):
-        for c in range(4):
-            free = i > held or (i == held and c == 3)
-            work.step[4 * (i - held + 1) + c] = dt * velocity[i, c] if free else 0.0
+    for i in range(held, state.q.shape[0]):
+        store(work.step, 4 * (i - held + 1), 0, dt * load(before.velocity, i, 0))
+    for r in range(FIRST):
+        work.step[r] = 0.0
     if inertia:
         less_carried(lumen.moving, before, state, held, work.step)
     share = allowed_part(rod, lumen, wall, state.q, work.step, held, 0.0)
@@ -100,12 +100,11 @@ def predict(rod, lumen, wall, state, before, held, dt, work, slides, inertia):
             return
     origin = work.trial.q
     for i in range(held, state.q.shape[0]):
-        for c in range(4):
-            origin[i, c] = state.q[i, c]
+        store(origin, i, 0, load(state.q, i, 0))
     for _ in range(HALVINGS):
         for i in range(held, state.q.shape[0]):
-            for c in range(4):
-                state.q[i, c] = origin[i, c] + share * work.step[4 * (i - held + 1) + c]
+            ahead = share * load(work.step, 4 * (i - held + 1), 0)
+            store(state.q, i, 0, load(origin, i, 0) + ahead)
         if wall.between.parts < 2:
             return
         _, energy = add_between(rod, lumen, wall, state, held, work.gradient, work.no_band)
@@ -144,9 +143,9 @@ def time_step(model, guide, state, work, limits, slides, start, end, dt, drive):
     drag = 1.0 + drive.damping * dt
     if not drive.inertia:
         follow_tangents(state, held, moves[2])
+    onwards = dt / drag
     for i in range(held, nodes):
-        for c in range(4):
-            work.target[i, c] = state.q[i, c] + dt / drag * state.velocity[i, c]
+        store(work.target, i, 0, load(state.q, i, 0) + onwards * load(state.velocity, i, 0))
     carry(lumen.moving, work.ahead, held)
     predict(rod, lumen, wall, work.ahead, state, held, dt, work, slides, drive.inertia)
     place_held(rod, guide, work.ahead, held - 1, held, end[0], end[1])
@@ -213,8 +212,7 @@ def accept(model, state, work, dt, end, clock):
     count_half(lumen.moving, model, state, work.ahead, work)
     state.clock[0] = clock
     for i in range(held, state.q.shape[0]):
-        for c in range(4):
-            state.velocity[i, c] = (work.ahead.q[i, c] - state.q[i, c]) / dt
+        store(state.velocity, i, 0, (load(work.ahead.q, i, 0) - load(state.q, i, 0)) / dt)
     copy_configuration(work.ahead, state, held)
     state.guide[0], state.guide[1] = end
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 from math import inf
 from typing import NamedTuple
 
-from magwire.kernels._jit import kernel, part
+from magwire.kernels._jit import kernel, part, short
 from magwire.kernels.assembly import FIRST, assemble
 from magwire.kernels.band import factor, solve
 from magwire.kernels.frames import update_frames
+from magwire.kernels.groups import larger, largest_of, total
 from magwire.kernels.history import copy_configuration
+from magwire.kernels.lanes import load, splat, store
 from magwire.kernels.vectors import combine, dot, norm, row, sub
 from magwire.kernels.wall.collision import allowed_part
 from magwire.kernels.wall.slide import slide
@@ -49,17 +51,20 @@ class Limits(NamedTuple):
 @kernel
 def residual(gradient, held):
     """Largest force or moment on a free unknown; NaN counts as infinite."""
-    last = gradient.shape[0] - 1
+    tip = gradient.shape[0] - 1
     largest = abs(gradient[held, 3])
     if not largest < inf:
         return inf
-    for i in range(held + 1, last + 1):
-        for c in range(4 if i < last else 3):
-            value = abs(gradient[i, c])
-            if not value < inf:
-                return inf
-            largest = max(largest, value)
-    return largest
+    most = bad = splat(0.0)
+    for i in range(held + 1, tip):
+        size = abs(load(gradient, i, 0))
+        most, bad = larger(size, most), bad + (size - size)  # what is not finite stays in ``bad``
+    for c in range(3):
+        value = abs(gradient[tip, c])
+        if not value < inf:
+            return inf
+        largest = max(largest, value)
+    return max(largest, largest_of(most)) if total(bad) == 0.0 else inf
 
 
 @part
@@ -95,22 +100,21 @@ def find_step(model, state, mouth, motion, work, limits):
         add_shift(model[0], work.band, held, shift)
     else:
         return -count
-    for i in range(held - 1, nodes):
-        for c in range(4):
-            row = 4 * (i - held + 1) + c
-            work.step[row] = -work.gradient[i, c] if FIRST <= row < last else 0.0
+    for i in range(held, nodes):
+        store(work.step, 4 * (i - held + 1), 0, -load(work.gradient, i, 0))
+    for r in range(FIRST):
+        work.step[r] = 0.0
+    work.step[last] = 0.0
     solve(work.band, work.step, FIRST, last)
     return count
 
 
-@kernel
+@short
 def take_step(a, b, held, part, step):
     """Configuration b = a + part * step, with its frames transported from a."""
     nodes = a.q.shape[0]
     for i in range(held - 1, nodes):
-        r = 4 * (i - held + 1)
-        for c in range(4):
-            b.q[i, c] = a.q[i, c] + part * step[r + c]
+        store(b.q, i, 0, load(a.q, i, 0) + part * load(step, 4 * (i - held + 1), 0))
     for c in range(3):
         b.director[held - 1, c] = a.director[held - 1, c]
     update_frames(a, b, held)
@@ -141,10 +145,10 @@ def turn_step(a, held, part, step, way):
 @kernel
 def longest(step, held, nodes):
     """Largest component of a step."""
-    value = 0.0
-    for r in range(FIRST, 4 * (nodes - held + 1) - 1):
-        value = max(value, abs(step[r]))
-    return value
+    most = splat(0.0)
+    for r in range(4, 4 * (nodes - held + 1), 4):  # what is not free does not move
+        most = larger(abs(load(step, r, 0)), most)
+    return largest_of(most)
 
 
 @part
@@ -220,11 +224,10 @@ def newton(model, state, mouth, motion, work, limits):
         if count < 0:
             status = STALLED
             break
-        slope = 0.0
+        slope = splat(0.0)
         for i in range(held, a.q.shape[0]):
-            for c in range(4):
-                slope += work.gradient[i, c] * work.step[4 * (i - held + 1) + c]
-        aim = energy, slope, ROUND_OFF * (1.0 + abs(energy))
+            slope = slope + load(work.gradient, i, 0) * load(work.step, 4 * (i - held + 1), 0)
+        aim = energy, total(slope), ROUND_OFF * (1.0 + abs(energy))
         share, energy, near = search(model, a, b, mouth, motion, work, limits, aim)
         if share == 0.0:
             status = STALLED

@@ -6,11 +6,12 @@ from math import inf, nan, sqrt
 
 from magwire.kernels._jit import kernel, part
 from magwire.kernels.arrays import Motion
-from magwire.kernels.assembly import FIRST, assemble, clear
+from magwire.kernels.assembly import FIRST, assemble
 from magwire.kernels.band import factor
 from magwire.kernels.centreline import FIRST as FIRST_PIECE
 from magwire.kernels.centreline import PIECES, SPACING, spline
 from magwire.kernels.hinge import material_frame
+from magwire.kernels.lanes import clear_rows
 from magwire.kernels.vectors import combine, dot, norm, row, scale, sub
 from magwire.kernels.wall.contact import add_walls
 from magwire.kernels.wall.foundation import at_edge, at_node, pressed_in
@@ -169,7 +170,7 @@ def observe(model, state, mouth, work, forces, clearance, sunk):
     rod, _, wall, lumen = model
     nodes = state.q.shape[0]
     held = mouth.held
-    clear(work.gradient, 0, nodes)
+    clear_rows(work.gradient, 0, nodes)
     add_walls(rod, lumen, wall, state, held, work.gradient, work.no_band)
     for i in range(nodes):
         for c in range(3):

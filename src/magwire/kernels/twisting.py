@@ -26,9 +26,10 @@ def twisting_gradient(h, moment):
 def twisting_hessian(h, k, moment):
     """Blocks ee, ff (symmetric), ef, e-theta and f-theta columns, theta-theta (P-5)."""
     kb = h.binormal
-    quarter_e, quarter_f = -0.25 * moment * h.inv_e**2, -0.25 * moment * h.inv_f**2
-    ee = sym_add(sym_outer(0.25 * k * h.inv_e**2, kb), sym_pair(quarter_e, kb, add(h.te, h.tilde)))
-    ff = sym_add(sym_outer(0.25 * k * h.inv_f**2, kb), sym_pair(quarter_f, kb, add(h.tf, h.tilde)))
+    square_e, square_f = h.inv_e * h.inv_e, h.inv_f * h.inv_f
+    quarter_e, quarter_f = -0.25 * moment * square_e, -0.25 * moment * square_f
+    ee = sym_add(sym_outer(0.25 * k * square_e, kb), sym_pair(quarter_e, kb, add(h.te, h.tilde)))
+    ff = sym_add(sym_outer(0.25 * k * square_f, kb), sym_pair(quarter_f, kb, add(h.tf, h.tilde)))
     both = h.inv_e * h.inv_f
     ef = mat_add(outer(0.25 * k * both, kb, kb), outer(-0.5 * moment * both, kb, h.tilde))
     ef = mat_add(ef, skew(moment * both * h.inv_chi, h.te))

@@ -6,12 +6,14 @@ The gap is 1-Lipschitz, so a point may move by less than its gap. Repeating that
 
 from __future__ import annotations
 
-from magwire.kernels._jit import kernel
+from magwire.kernels._jit import kernel, short
+from magwire.kernels.groups import group, numbers, places, rows
+from magwire.kernels.lanes import load, transposed
 from magwire.kernels.vectors import combine, norm, row
 from magwire.kernels.wall.foundation import at_node, deepest
 from magwire.kernels.wall.gap import gap_value, slopes
 from magwire.kernels.wall.motion import pace
-from magwire.kernels.wall.push import clear_of_wall, query
+from magwire.kernels.wall.push import all_clear, clear_of_wall, query
 
 CAUTION = 0.9  # part of the safe distance that one hop uses
 CLOSEST = 0.1  # a step may shrink the clearance to this part of itself, not further
@@ -53,7 +55,7 @@ def travel(lumen, x, dx, offset, known, jet, limit):
     return share
 
 
-@kernel
+@short
 def allowed_part(rod, lumen, wall, q, step, held, leeway):
     """Largest part of a step (rows of the band's layout) that keeps the nodes inside.
 
@@ -64,12 +66,25 @@ def allowed_part(rod, lumen, wall, q, step, held, leeway):
     share, fast = 1.0, pace(lumen.moving)
     nodes = q.shape[0]
     lead = 4 * (held - 1)
-    for i in range(held + 1, nodes):
-        r = 4 * i - lead
-        x, dx = row(q, i), (step[r], step[r + 1], step[r + 2])
-        offset = rod.offset[i] - leeway - deepest(at_node(wall.bed, i))
-        if not clear_of_wall(x, wall.known[i], fast, fast * share * norm(dx) / CAUTION + offset):
-            share = travel(lumen, x, dx, offset, wall.known[i], wall.jet[i], share)
+    leeway += deepest(at_node(wall.bed, nodes - 1))
+    for begin in range(held + 1, nodes, 4):
+        g = group(begin, nodes - 1)
+        dx, dy, dz, _ = transposed(
+            load(step, 4 * g[0] - lead, 0),
+            load(step, 4 * g[1] - lead, 0),
+            load(step, 4 * g[2] - lead, 0),
+            load(step, 4 * g[3] - lead, 0),
+        )
+        far = fast * share / CAUTION
+        reach = far * norm((dx, dy, dz)) + (numbers(rod.offset, g) - leeway)
+        if all_clear(places(q, g), rows(wall.known, g), fast, reach):
+            continue
+        for i in range(begin, min(begin + 4, nodes)):
+            r = 4 * i - lead
+            x, move = row(q, i), (step[r], step[r + 1], step[r + 2])
+            offset, far = rod.offset[i] - leeway, fast * share / CAUTION
+            if not clear_of_wall(x, wall.known[i], fast, far * norm(move) + offset):
+                share = travel(lumen, x, move, offset, wall.known[i], wall.jet[i], share)
     tube = wall.tube
     if tube.stiffness > 0.0 and held < nodes - 1:
         i = nodes - 1

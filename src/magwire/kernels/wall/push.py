@@ -6,7 +6,9 @@ from math import inf
 
 from magwire.kernels._jit import kernel
 from magwire.kernels.blocks import sym_add, sym_outer, sym_scale
-from magwire.kernels.vectors import norm, scale, sub
+from magwire.kernels.groups import smallest_of
+from magwire.kernels.lanes import splat, where
+from magwire.kernels.vectors import dot, norm, scale, sub
 from magwire.kernels.wall.foundation import at_node, deepest, response
 from magwire.kernels.wall.gap import gap_jet
 from magwire.kernels.wall.motion import pace
@@ -31,6 +33,14 @@ def clear_of_wall(x, known, fast, reach):
     the wall's ``pace``, 1 if it does not move.
     """
     return fast * norm(sub(x, (known[0], known[1], known[2]))) + reach <= known[3]
+
+
+@kernel
+def all_clear(x, known, fast, reach):
+    """Whether ``clear_of_wall`` holds for four points: columns of points and of what is known."""
+    room = known[3] - reach
+    away = sub(x, (known[0], known[1], known[2]))
+    return smallest_of(where(room, room * room - fast * fast * dot(away, away), splat(-1.0))) > 0.0
 
 
 @kernel
