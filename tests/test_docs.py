@@ -13,7 +13,7 @@ import tomli_w
 ROOT = Path(__file__).parent.parent
 SLOW = pytest.mark.skipif("MAGWIRE_SLOW" not in os.environ, reason="15 s; set MAGWIRE_SLOW")
 THEORY = ROOT / "docs" / "theory"
-LABELS = (*range(1, 34), *range(37, 41))
+LABELS = (*range(1, 34), *range(37, 42))
 
 CITED = re.compile(r"\(P-(\d+)(?:\s*(?:\.\.\.?|to|-)\s*P-(\d+))?")
 LISTED = re.compile(r"\bP-(\d+)\b")

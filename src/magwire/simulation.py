@@ -383,8 +383,7 @@ class Simulation:
             points.append(centre)
             radii.append(radius)
             tags.append(np.full(len(centre), i, dtype=np.int64))
-        sheet = self.system.lumen.sheet
-        return RunInfo(
+        known = RunInfo(
             nodes=self.system.wire.nodes,
             scales=self.system.scales,
             centreline=np.concatenate(points),
@@ -397,8 +396,11 @@ class Simulation:
             motion=motion,
             inputs=self.system.input_names,
             resistances=self.system.resistances,
-            **({} if sheet is None else {"surface": (sheet.points, sheet.triangles)}),
         )
+        sheet = self.system.lumen.sheet
+        if sheet is None:
+            return known
+        return replace(known, surface=(sheet.points, sheet.triangles))
 
     def _way(self) -> Array:
         """Points and radius of the way to the target, densely along it, shape (q, 4) [m]."""

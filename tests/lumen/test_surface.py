@@ -1,4 +1,4 @@
-"""Walls of triangles: distances, derivatives, and forces against walls that are known (P-39)."""
+"""Walls of triangles: distances, derivatives, and forces against walls that are known (P-41)."""
 
 from __future__ import annotations
 

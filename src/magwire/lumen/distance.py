@@ -1,4 +1,4 @@
-"""The signed distance from a wall of triangles as a spline, which the kernels ask (P-39).
+"""The signed distance from a wall of triangles as a spline, which the kernels ask (P-41).
 
 A cubic B-spline through bricks of cells: coarse inside, finer towards the wall where it is narrow
 or where the spline is off the triangles, each time by half. Finer cells add a correction to what

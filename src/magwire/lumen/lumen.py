@@ -364,7 +364,7 @@ class Lumen:
 
         Notes
         -----
-        (P-39) of the theory pages. The wall that a wire feels is smooth, and nowhere outside of the
+        (P-41) of the theory pages. The wall that a wire feels is smooth, and nowhere outside of the
         triangles; ``fidelity`` says how far inside it is.
         """
         made = replace(self, sheet=Sheet(np.asarray(points), np.asarray(triangles)))

@@ -12,9 +12,9 @@ import numpy as np
 from magwire.errors import InputError
 from magwire.files import read_text, write_whole
 from magwire.navigate.inputs import InputSchedule
+from magwire.navigate.schedule import last_tries
 from magwire.scenario.columns import DIMENSIONS, FEED
 from magwire.scenario.measured import Columns
-from magwire.scenario.schedules import last_tries
 
 if TYPE_CHECKING:
     from magwire.results import Result

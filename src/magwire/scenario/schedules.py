@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import tomli_w
-from numpy.typing import NDArray
 
 from magwire.errors import InputError, finite, positive
 from magwire.files import parse_toml, read_text, write_whole

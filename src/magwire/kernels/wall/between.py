@@ -148,7 +148,9 @@ def press_edge(rod, lumen, wall, state, j, gradient, band, r):
         away = fast * norm(sub(x, (known[0], known[1], known[2])))
         left = known[3] - offset - between.gap - away
         if left < 0.0:
-            d, value, pushed, block = push(lumen, x, stiffness, between.gap, offset, known, jet, give)
+            d, value, pushed, block = push(
+                lumen, x, stiffness, between.gap, offset, known, jet, give
+            )
             left = known[3] - offset - between.gap
             if d < inf:
                 nearest = min(nearest, d)

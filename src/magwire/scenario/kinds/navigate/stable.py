@@ -49,7 +49,9 @@ class StableSteering(ModelSteering):
         )
 
         def planner(system: System) -> Navigator:
-            plain = StableNavigator(system, demands=demands, plan_every=self.plan_every, friction=self.friction)
+            plain = StableNavigator(
+                system, demands=demands, plan_every=self.plan_every, friction=self.friction
+            )
             return persistent(plain, self.attempts)
 
         return in_inputs(simulation.system, planner, self.objective)
