@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-BYTES = 2**22
+BYTES = 2**20
 """Memory of a piece of one variable."""
 
 

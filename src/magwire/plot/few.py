@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.pieces import Column, Plain, pieces, spans
+from magwire.pieces import Column, Plain, piece, spans
 from magwire.plot.shapes import snapshots
 
 if TYPE_CHECKING:
@@ -84,7 +84,10 @@ def few(data: Any) -> Any:
     length = -(-records // STRETCHES)
     for name in DRAWN:
         for curve in CURVES.get(name, ()) if name in data else ():
-            chosen |= _extremes(np.concatenate([curve(v) for (v,) in pieces(data, name)]), length)
+            values = np.empty(records)
+            for some in spans(data, name):
+                values[some] = curve(piece(data, name, some))
+            chosen |= _extremes(values, length)
     keep = np.array(sorted(chosen))
     made = {
         str(name): Column(held.dims, held.values, held.attrs)
