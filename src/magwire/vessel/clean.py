@@ -112,6 +112,11 @@ def _dense(line: Line, number: int) -> Line:
             f"{line.radius.min():.4g}; expected at most {MOST} points {STEP:g} radii apart"
         )
     arc = np.concatenate([[0.0], np.cumsum(steps)])
+    if not np.all(np.diff(arc) > 0.0):
+        raise FileFaultError(
+            f"has a line {number} of length {steps.sum():.4g} with a step of {steps.min():.4g}; "
+            "expected steps that the length grows by"
+        )
     count = parts.astype(np.int64)
     piece = np.repeat(np.arange(len(count)), count)
     share = (np.arange(len(piece)) - np.repeat(np.cumsum(count) - count, count)) / count[piece]

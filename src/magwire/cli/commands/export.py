@@ -37,6 +37,8 @@ def export(
     frame
         Axes of positions, forces and fields: lps as in result files and DICOM, or ras as in 3D
         Slicer, with x and y turned round.
+    playing
+        How a schedule of inputs is made.
     force
         Overwrite what is in the folder.
     """

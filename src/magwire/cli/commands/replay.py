@@ -34,6 +34,8 @@ def replay(
         Factor on the recorded field, such as 1.03 for a field that is 3 percent too strong.
     resample
         Feed between two values of the field that are kept, such as "2 mm"; it is linear between.
+    departures
+        How the hardware departs from its model.
     overrides
         Keys to set in the scenario, such as wire.youngs_modulus="3.1 MPa".
     out
