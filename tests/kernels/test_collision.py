@@ -9,6 +9,7 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
+from magwire.kernels.arrays import JET
 from magwire.kernels.centreline import LumenArrays
 from magwire.kernels.wall.collision import CLOSEST, travel
 from magwire.lumen import Lumen
@@ -34,7 +35,7 @@ def tube(name: str) -> tuple[Lumen, LumenArrays]:
 
 
 def go(name: str, x: Array, dx: Array, offset: float = 0.0, limit: float = 1.0) -> float:
-    memory = np.full(4, UNKNOWN), np.zeros(10)
+    memory = np.full(4, UNKNOWN), np.zeros(JET)
     return float(travel(tube(name)[1], tuple(x), tuple(dx), offset, *memory, limit))
 
 
@@ -131,7 +132,7 @@ def test_what_is_remembered_of_the_gap_stays_true(s: float, depth: float, seed: 
     """Two steps that share the memory are as safe as two that ask anew."""
     lumen, arrays = tube("half-circle")
     rng = np.random.default_rng(seed)
-    memory = np.full(4, UNKNOWN), np.zeros(10)
+    memory = np.full(4, UNKNOWN), np.zeros(JET)
     x, _, _ = inside(lumen, s, depth, seed)
     for _ in range(5):
         dx = rng.normal(size=3) * 10.0 ** rng.uniform(-6, -2)
@@ -143,5 +144,5 @@ def test_what_is_remembered_of_the_gap_stays_true(s: float, depth: float, seed: 
 
 def test_open_space_has_no_wall() -> None:
     arrays = Lumen.open_space().arrays()
-    memory = np.full(4, UNKNOWN), np.zeros(10)
+    memory = np.full(4, UNKNOWN), np.zeros(JET)
     assert travel(arrays, (0.0, 0.0, 0.0), (9.0, 9.0, 9.0), 0.0, *memory, 1.0) == 1.0
