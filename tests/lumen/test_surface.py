@@ -119,8 +119,11 @@ def test_forces_converge_to_those_of_the_round_tube(wide: float) -> None:
         balls, lumen = bent(edge, wide)
         exact = wall_force(balls) if exact is None else exact
         errors.append(np.linalg.norm(wall_force(lumen) - exact) / np.linalg.norm(exact))
-    assert errors[-1] < 0.02
-    assert np.polyfit(np.log([0.4, 0.2, 0.1]), np.log(errors), 1)[0] > 1.0
+    assert errors[-1] < 2e-3
+    if wide == 1.0:
+        assert np.polyfit(np.log([0.4, 0.2, 0.1]), np.log(errors), 1)[0] > 1.0
+    else:  # the round tube is not the ellipse's exact answer: no order is to be seen below this
+        assert max(errors) < 5e-3
 
 
 def test_a_sac_is_as_wide_as_it_is() -> None:

@@ -68,7 +68,7 @@ FAULTS = (
         "unknown key",
         ("contact.slipperiness=0.1",),
         "Input contact.slipperiness is not a key of [contact]; expected one of 'stiffness', "
-        "'activation_gap', 'wall', 'friction'.",
+        "'activation_gap', 'wall', 'foundation', 'friction', 'breathing', 'pulsation'.",
     ),
     Fault(
         "key of another shape",
@@ -335,7 +335,7 @@ FAULTS = (
         "key of another way to steer",
         (*STABLE, "navigate.file=x.csv"),
         "Input navigate.file is not a key of [navigate] with method 'stable'; expected one of "
-        "'method', 'update_every', 'objective', 'plan_every', 'tip_clearance', "
+        "'method', 'update_every', 'friction', 'objective', 'plan_every', 'tip_clearance', "
         "'stability_margin', 'field_tolerance', 'max_field', 'max_field_rate', 'attempts'.",
     ),
     Fault(

@@ -168,7 +168,7 @@ def test_holes_are_closed_and_listed_and_short_ends_are_not(tmp_path: Path) -> N
     corners, triangles = vessel_files.tube()
     middle = 0.25 * (corners[triangles[1400, 0]] + 3.0 * corners[triangles[1400, 1]])
     away = np.linalg.norm(corners[triangles].mean(axis=1) - middle, axis=1)
-    ends, notes = _without_holes(shell(Surface(1e-3 * corners, triangles[away > 1.2])))
+    ends, notes, _ = _without_holes(shell(Surface(1e-3 * corners, triangles[away > 1.2])))
     assert len(ends) == 2
     (note,) = notes
     assert note.startswith("Holes in the wall: 1, closed, at (")

@@ -13,7 +13,7 @@ from magwire.kernels.groups import larger, largest_of, total
 from magwire.kernels.history import copy_configuration
 from magwire.kernels.lanes import load, splat, store
 from magwire.kernels.vectors import combine, dot, norm, row, sub
-from magwire.kernels.wall.collision import allowed_part
+from magwire.kernels.wall.collision import allowed_between, allowed_part
 from magwire.kernels.wall.slide import slide
 
 CONVERGED = 0
@@ -168,6 +168,7 @@ def search(model, a, b, mouth, motion, work, limits, aim):
     else:
         share = allowed_part(rod, lumen, wall, a.q, work.step, held, 0.0)
         leeway = 0.0
+    blind = not limits.slide  # to points between the nodes
     for _ in range(HALVINGS):
         for turned in range(2):
             bent = limits.slide or turned == 1
@@ -183,7 +184,13 @@ def search(model, a, b, mouth, motion, work, limits, aim):
             lower, nearest = assemble(model, b, mouth, motion, work.gradient, work.no_band)
             if lower <= energy + ARMIJO * share * slope + slack:
                 return share, lower, nearest
-        share *= 0.5
+        halved = 0.5 * share
+        if blind and not lower < inf:
+            blind = False
+            share = allowed_between(rod, lumen, wall, a.q, work.step, held, share)
+            if share > halved and share < 2.0 * halved:
+                continue
+        share = min(share, halved)
     return 0.0, lower, nearest
 
 

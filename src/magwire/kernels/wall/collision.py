@@ -6,10 +6,11 @@ The gap is 1-Lipschitz, so a point may move by less than its gap. Repeating that
 
 from __future__ import annotations
 
-from magwire.kernels._jit import kernel, short
+from magwire.kernels._jit import kernel, part, short
 from magwire.kernels.groups import group, numbers, places, rows
 from magwire.kernels.lanes import load, transposed
 from magwire.kernels.vectors import combine, norm, row
+from magwire.kernels.wall.between import clear_edge, keep_off
 from magwire.kernels.wall.foundation import at_node, deepest
 from magwire.kernels.wall.gap import gap_value, slopes
 from magwire.kernels.wall.motion import pace
@@ -55,12 +56,45 @@ def travel(lumen, x, dx, offset, known, jet, limit):
     return share
 
 
+@part
+def edge_part(rod, lumen, wall, q, step, j, r, limit):
+    """Largest part of a step, at most ``limit``, that the points of edge j may take.
+
+    r is the row of its first node.
+    """
+    between = wall.between
+    x, y = row(q, j), row(q, j + 1)
+    dx, dy = (step[r], step[r + 1], step[r + 2]), (step[r + 4], step[r + 5], step[r + 6])
+    fast = pace(lumen.moving)
+    if clear_edge(between, q, j, limit * max(norm(dx), norm(dy)) / CAUTION - between.gap):
+        return limit
+    offset = keep_off(rod, between, j) - deepest(at_node(wall.bed, j))
+    for k in range(1, between.parts):
+        s = k / between.parts
+        here = combine(1.0 - s, x, s, y)
+        move = combine(1.0 - s, dx, s, dy)
+        known = between.known[j, k]
+        if not clear_of_wall(here, known, fast, fast * limit * norm(move) / CAUTION + offset):
+            limit = travel(lumen, here, move, offset, known, between.jet[j, k], limit)
+    return limit
+
+
+@kernel
+def allowed_between(rod, lumen, wall, q, step, held, limit):
+    """Largest part of a step, at most ``limit``, that keeps the points between the nodes inside."""
+    if wall.between.parts > 1:
+        for j in range(held, q.shape[0] - 1):
+            limit = edge_part(rod, lumen, wall, q, step, j, 4 * (j - held + 1), limit)
+    return limit
+
+
 @short
 def allowed_part(rod, lumen, wall, q, step, held, leeway):
     """Largest part of a step (rows of the band's layout) that keeps the nodes inside.
 
-    Where it takes points between the nodes into the wall, their energy is infinite: a chord between
-    two nodes that stayed inside cannot have gone through the wall of a tree on the way.
+    Where it takes points between the nodes into the wall, their energy is infinite, and
+    ``allowed_between`` says how far they may go: it is asked only then. A chord between two nodes
+    that stayed inside cannot have gone through the wall of a tree on the way.
     leeway: how far into the wall the way may lead, of a step that is known to end inside.
     """
     share, fast = 1.0, pace(lumen.moving)
