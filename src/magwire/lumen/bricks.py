@@ -34,7 +34,7 @@ class Level:
     places
         Where in the box each brick is, in the order of its number there, shape (bricks, 3).
     coefficients
-        Of its spline, in cells, shape (bricks, 343).
+        Coefficients of its spline, in cells, shape (bricks, 343).
     finer
         Which bricks are divided into smaller ones, shape (bricks,).
     """
