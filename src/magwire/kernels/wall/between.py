@@ -17,7 +17,7 @@ from magwire.kernels.scatter import add_block, add_diagonal, add_vector
 from magwire.kernels.vectors import combine, dot, norm, row, sub
 from magwire.kernels.wall.foundation import at_edge
 from magwire.kernels.wall.motion import pace
-from magwire.kernels.wall.push import push, query
+from magwire.kernels.wall.push import clear_of_wall, push, query
 
 CAREFUL = 2.0  # bulges are sampled: what a chord may lose is taken this many times as much
 
@@ -144,28 +144,36 @@ def press_edge(rod, lumen, wall, state, j, gradient, band, r):
         k = first + 1 if onward else last - 1
         s = k / between.parts
         x = combine(1.0 - s, row(state.q, j), s, row(state.q, j + 1))
-        known, jet = between.known[j, k], between.jet[j, k]
+        known = between.known[j, k]
+        left = known[3] - offset - between.gap
         away = fast * norm(sub(x, (known[0], known[1], known[2])))
-        left = known[3] - offset - between.gap - away
-        if left < 0.0:
-            d, value, pushed, block = push(
-                lumen, x, stiffness, between.gap, offset, known, jet, give
-            )
+        left -= away
+        if left < 0.0 and away > 0.0:
+            query(lumen, x, known, between.jet[j, k])
             left = known[3] - offset - between.gap
-            if d < inf:
-                nearest = min(nearest, d)
-                energy += value
-                add_vector(gradient, j, 1.0 - s, pushed)
-                add_vector(gradient, j + 1, s, pushed)
-                if len(band) > 0:
-                    add_diagonal(band, r, sym_scale((1.0 - s) * (1.0 - s), block))
-                    add_diagonal(band, r + 4, sym_scale(s * s, block))
-                    add_block(band, r + 4, r, full(sym_scale(s * (1.0 - s), block)))
         room = min(room, left)
         if onward:
             first, low = k, left
         else:
             last, high = k, left
+    for k in range(1, between.parts):  # in their order: sums must not hang on what was known
+        if first < k < last:
+            continue
+        s = k / between.parts
+        x = combine(1.0 - s, row(state.q, j), s, row(state.q, j + 1))
+        known, jet = between.known[j, k], between.jet[j, k]
+        if clear_of_wall(x, known, fast, offset + between.gap):
+            continue
+        d, value, pushed, block = push(lumen, x, stiffness, between.gap, offset, known, jet, give)
+        if d < inf:
+            nearest = min(nearest, d)
+            energy += value
+            add_vector(gradient, j, 1.0 - s, pushed)
+            add_vector(gradient, j + 1, s, pushed)
+            if len(band) > 0:
+                add_diagonal(band, r, sym_scale((1.0 - s) * (1.0 - s), block))
+                add_diagonal(band, r + 4, sym_scale(s * s, block))
+                add_block(band, r + 4, r, full(sym_scale(s * (1.0 - s), block)))
     remember(between, state.q, j, slowed(lumen.moving, room, between.gap))
     return nearest, energy
 
