@@ -169,6 +169,9 @@ def search(model, a, b, mouth, motion, work, limits, aim):
         share = allowed_part(rod, lumen, wall, a.q, work.step, held, 0.0)
         leeway = 0.0
     blind = not limits.slide  # to points between the nodes
+    if blind and limits.step == 0.0:  # far from the end, a step that is halved leads nowhere
+        blind = False
+        share = allowed_between(rod, lumen, wall, a.q, work.step, held, share)
     for _ in range(HALVINGS):
         for turned in range(2):
             bent = limits.slide or turned == 1
