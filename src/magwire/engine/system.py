@@ -323,10 +323,9 @@ class System:
         length, stiffness = self.wire.length, self.wire.bending_stiffness
         unit = stiffness / length**4  # of a barrier's stiffness
         edge = float(self.mesh.edge_length.max())
-        between = divide(self.firmness, edge, self.bulge, length, self.wire.nodes)
         bed = self._new_bed()
-        if bed:
-            between = divide_bed(self.firmness, edge, self.bulge, length, self.wire.nodes)
+        made = divide_bed if bed else divide
+        between = made(self.firmness, edge, self.bulge, length, self.wire.nodes)
         if between.parts > 1 and not self.walls.sheet:
             between = between._replace(bulges=self._bulges_by_place)
         share = between.parts if bed else 1  # of its cell's wall that a node stands for

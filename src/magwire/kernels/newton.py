@@ -168,9 +168,9 @@ def search(model, a, b, mouth, motion, work, limits, aim):
     else:
         share = allowed_part(rod, lumen, wall, a.q, work.step, held, 0.0)
         leeway = 0.0
-    blind = not limits.slide  # to points between the nodes
-    if blind and limits.step == 0.0:  # far from the end, a step that is halved leads nowhere
-        blind = False
+    far = limits.step == 0.0  # from the end, where a step that is halved leads nowhere
+    blind = not limits.slide and not far  # to points between the nodes
+    if far and not limits.slide:
         share = allowed_between(rod, lumen, wall, a.q, work.step, held, share)
     for _ in range(HALVINGS):
         for turned in range(2):
@@ -187,13 +187,11 @@ def search(model, a, b, mouth, motion, work, limits, aim):
             lower, nearest = assemble(model, b, mouth, motion, work.gradient, work.no_band)
             if lower <= energy + ARMIJO * share * slope + slack:
                 return share, lower, nearest
-        halved = 0.5 * share
+        clear = share
         if blind and not lower < inf:
             blind = False
-            share = allowed_between(rod, lumen, wall, a.q, work.step, held, share)
-            if share > halved and share < 2.0 * halved:
-                continue
-        share = min(share, halved)
+            clear = allowed_between(rod, lumen, wall, a.q, work.step, held, share)
+        share = clear if clear < share else 0.5 * share
     return 0.0, lower, nearest
 
 

@@ -92,19 +92,20 @@ def widened(bulge: Bulge, reach: float) -> Array:
 
 def sheet_bulge(arrays: LumenArrays, wall: Wall, inset: float) -> float:
     """The same for a wall of triangles, looked for at points all over it, ``inset`` off it."""
-    points = wall.spots[:: max(1, len(wall.spots) // SPOTS)].copy()
+    every = max(1, len(wall.spots) // SPOTS)
+    points = wall.spots[::every].copy()
     count = len(points)
     gap, normal, hessian = np.empty(count), np.empty((count, 3)), np.empty((count, 6))
     for _ in range(STEPS):
         jets_many(arrays, points, gap, normal, hessian)
         points += np.where(np.isfinite(gap), inset - gap, 0.0)[:, None] * normal
     jets_many(arrays, points, gap, normal, hessian)
-    there = np.abs(gap - inset) < NEAR * wall.radius[:: max(1, len(wall.spots) // SPOTS)]
+    there = np.abs(gap - inset) < NEAR * wall.radius[::every]
     matrices = hessian[there][:, SYMMETRIC].reshape(-1, 3, 3)
-    largest = float(np.linalg.eigvalsh(matrices)[:, -1].max(initial=0.0))
+    sharpest = float(np.linalg.eigvalsh(matrices)[:, -1].max(initial=0.0))
     radii = wall.arrays.ends[:, MOUTH_RADIUS]
     flare = max((FLARE / float(radius) for radius in radii), default=0.0)
-    return max(largest, flare)
+    return max(sharpest, flare)
 
 
 def _rounding(branches: Sequence[Branch]) -> float:

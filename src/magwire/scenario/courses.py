@@ -15,6 +15,7 @@ from magwire.navigate.inputs import InputSchedule
 from magwire.navigate.schedule import last_tries
 from magwire.scenario.columns import DIMENSIONS, FEED
 from magwire.scenario.measured import Columns
+from magwire.scenario.schedules import table_of
 
 if TYPE_CHECKING:
     from magwire.results import Result
@@ -104,24 +105,5 @@ def _course(path: Path, head: list[str], rows: list[list[str]]) -> InputSchedule
     if len(set(names)) < len(names):
         twice = next(name for name in names if names.count(name) > 1)
         raise InputError(f"Schedule file '{path}' must have each column once; {twice} comes twice.")
-    if not rows:
-        raise InputError(f"Schedule file '{path}' must have at least one row; received none.")
-    table = np.empty((len(rows), len(head)))
-    for number, row in enumerate(rows, start=1):
-        try:
-            table[number - 1] = [float(word) for word in row]
-        except ValueError:
-            table[number - 1] = np.nan
-        if not np.isfinite(table[number - 1]).all():
-            raise InputError(
-                f"Schedule file '{path}' must have {len(head)} finite numbers in every row; "
-                f"received '{','.join(row)}' in row {number}."
-            )
-    rises = np.diff(table[:, 0]) > 0.0
-    if not rises.all():
-        number = int(np.argmin(rises))
-        raise InputError(
-            f"Schedule file '{path}' must have feeds that increase; received "
-            f"{table[number + 1, 0]:g} m after {table[number, 0]:g} m in row {number + 2}."
-        )
+    table = table_of(path, len(head), rows)
     return InputSchedule(table[:, 0], table[:, 1:], tuple((a, b) for a, b in known[1:]))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import tomli_w
+from numpy.typing import NDArray
 
 from magwire.errors import InputError, finite, positive
 from magwire.files import parse_toml, read_text, write_whole
@@ -175,9 +176,21 @@ def _schedule(text: str, path: Path) -> Schedule:
             f"Schedule file '{path}' must start with the header '{','.join(HEADER)}'; "
             f"received '{','.join(head)}'."
         )
+    table = table_of(path, len(HEADER), rows)
+    return Schedule(table[:, 0], table[:, 1:])
+
+
+def table_of(path: Path, width: int, rows: Sequence[Sequence[str]]) -> NDArray[np.float64]:
+    """The numbers of a schedule file's rows, shape (n, width); the first column is the feed.
+
+    Raises
+    ------
+    InputError
+        If there are none, one is no finite number, or feeds do not increase.
+    """
     if not rows:
         raise InputError(f"Schedule file '{path}' must have at least one row; received none.")
-    table = np.empty((len(rows), len(HEADER)))
+    table = np.empty((len(rows), width))
     for number, row in enumerate(rows, start=1):
         try:
             table[number - 1] = [float(word) for word in row]
@@ -185,7 +198,7 @@ def _schedule(text: str, path: Path) -> Schedule:
             table[number - 1] = np.nan
         if not np.isfinite(table[number - 1]).all():
             raise InputError(
-                f"Schedule file '{path}' must have {len(HEADER)} finite numbers in every row; "
+                f"Schedule file '{path}' must have {width} finite numbers in every row; "
                 f"received '{','.join(row)}' in row {number}."
             )
     rises = np.diff(table[:, 0]) > 0.0
@@ -195,4 +208,4 @@ def _schedule(text: str, path: Path) -> Schedule:
             f"Schedule file '{path}' must have feeds that increase; received "
             f"{table[number + 1, 0]:g} m after {table[number, 0]:g} m in row {number + 2}."
         )
-    return Schedule(table[:, 0], table[:, 1:])
+    return table

@@ -57,12 +57,12 @@ def sweep(
             (folder / sweeping.TABLE).unlink(missing_ok=True)
         try:
             table = sweeping.carry_out(described, folder, workers=count, keep=keep, cluster=cluster)
+            from magwire.plot import save_sweep
+
+            save_sweep(table, folder)
         except KeyboardInterrupt:
             complain(f"Interrupted; the same command takes up the sweep in '{folder}' again.")
             return INTERRUPTED
-        from magwire.plot import save_sweep
-
-        save_sweep(table, folder)
     for line in report.lines(table):
         say(line)
     say(f"{'written to':22}{folder}")

@@ -105,14 +105,18 @@ def found_from(moving, factors, x):
 
 
 @kernel
+def taken(moving, start, end, x):
+    """Where the tissue is at some factors that was at x at others."""
+    return found_from(moving, end, sub(x, displacement(moving, start, x)))
+
+
+@kernel
 def carried(movings, x):
     """Where the tissue is now that was at a point before the step."""
     if len(movings) == 0:
         return x
     else:
-        moving = movings[0]
-        rest = sub(x, displacement(moving, moving.before, x))
-        return found_from(moving, moving.now, rest)
+        return taken(movings[0], movings[0].before, movings[0].now, x)
 
 
 @kernel
@@ -121,9 +125,7 @@ def came_from(movings, x):
     if len(movings) == 0:
         return x
     else:
-        moving = movings[0]
-        rest = sub(x, displacement(moving, moving.now, x))
-        return found_from(moving, moving.before, rest)
+        return taken(movings[0], movings[0].now, movings[0].before, x)
 
 
 @kernel
