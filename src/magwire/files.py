@@ -179,12 +179,25 @@ def parse_toml(text: str) -> dict[str, Any]:
     Raises
     ------
     TextFaultError
-        If it is not valid, nested too deeply, or has a number that Python does not take.
+        If it is not valid, nested too deeply, or has a number that Python does not take; of
+        integers, TOML 1.0 has those of 64 bits.
     """
     try:
-        return tomllib.loads(text)
+        tables = tomllib.loads(text)
+        _refuse_long_integers(tables)
+        return tables
     except RecursionError:
         raise TextFaultError("it is nested too deeply") from None
+    except TextFaultError:
+        raise
     except ValueError as error:  # its own, and those of numbers and dates
         why = str(error).split(";")[0].rstrip(".")
         raise TextFaultError(why[:1].lower() + why[1:]) from None
+
+
+def _refuse_long_integers(value: object) -> None:
+    if isinstance(value, int) and value.bit_length() > 63:
+        raise TextFaultError(f"an integer must fit into 64 bits; received {value.bit_length() + 1}")
+    if isinstance(value, dict | list):
+        for item in value.values() if isinstance(value, dict) else value:
+            _refuse_long_integers(item)

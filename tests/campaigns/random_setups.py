@@ -158,14 +158,16 @@ def gaps(where: mw.Lumen, points: Array) -> Array:
             away = np.linalg.norm(points[block, None] - at[None, :, :3], axis=2)
             depth = at[None, :, 3] - away
             k = np.argmax(depth, axis=1)
-            rows = np.arange(len(block))
-            inner = np.clip(k, 1, count - 2)
-            low, mid, high = (depth[rows, inner + o] for o in (-1, 0, 1))
+            # Beside the axis of a thin tube the depth is no parabola over a whole step: look closer.
+            fine = np.clip(s[k][:, None] + s[1] * np.linspace(-1.0, 1.0, 17), 0.0, branch.length)
+            near = branch.curve.at(fine.ravel()).reshape(*fine.shape, 4)
+            depth = near[..., 3] - np.linalg.norm(points[block, None] - near[..., :3], axis=2)
+            rows, top = np.arange(len(block)), np.argmax(depth, axis=1)
+            low, mid, high = (depth[rows, np.clip(top, 1, 15) + o] for o in (-1, 0, 1))
             bent = np.maximum(2.0 * mid - low - high, 1e-300)
             peak = mid + np.clip((high - low) ** 2 / (8.0 * bent), 0.0, np.abs(high - low))
-            value = np.where(
-                (k > 0) & (k < count - 1), np.maximum(peak, depth[rows, k]), depth[rows, k]
-            )
+            inside = (k > 0) & (k < count - 1)
+            value = np.where(inside, np.maximum(peak, depth[rows, top]), depth[rows, top])
             for end, sign in ((0, -1.0), (count - 1, 1.0)):
                 past = sign * np.einsum("ij,j->i", points[block] - at[end, :3], along[end, :3])
                 value = np.where((k == end) & (past > -0.01 * at[end, 3]), np.inf, value)
