@@ -37,13 +37,20 @@ def written(path: Path | None, count: int = 40) -> Result:
     return made.result()
 
 
+def read_whole(stored: Stored) -> None:
+    pytest.fail(f"all of a variable of the dimensions {stored.dims} is read at once")
+
+
 def in_memory(result: Result) -> list[str]:
     return [name for name, held in result.held.variables.items() if not isinstance(held, Stored)]
 
 
 @pytest.mark.usefixtures("small")
-def test_a_large_result_is_summed_up_without_being_in_memory(tmp_path: Path) -> None:
+def test_a_large_result_is_summed_up_without_being_in_memory(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     there, here = written(tmp_path / "result.nc"), written(None)
+    monkeypatch.setattr(Stored, "values", property(read_whole))
     names = [name for name, kind in vars(Result).items() if isinstance(kind, property)]
     names.remove("dataset")
     scalars = [name for name in names if np.ndim(getattr(here, name)) == 0]
@@ -55,6 +62,7 @@ def test_a_large_result_is_summed_up_without_being_in_memory(tmp_path: Path) -> 
     assert gains(there, there) == gains(here, here)
     np.testing.assert_equal(there.largest_force_over(0.01), here.largest_force_over(0.01))
     assert in_memory(there) == []
+    monkeypatch.undo()
     assert in_memory(here) == list(here.held.variables)
     xr.testing.assert_equal(there.dataset, here.dataset)
 

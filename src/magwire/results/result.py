@@ -273,12 +273,12 @@ class Result:
     @property
     def largest_indentation(self) -> float:
         """Deepest that any node pressed the wall in, over all records [m]; 0 at a rigid wall."""
-        return float(np.max(self.wall_indentation, initial=0.0))
+        return self._largest("wall_indentation")
 
     @property
     def work_of_wall(self) -> float:
         """What the wall that moves has done to the wire in all [J]; 0 if it rests."""
-        return float(self.wall_work[-1]) if self.wall_work.size else 0.0
+        return float(at(self.held, "wall_work", -1)) if self.held.sizes["time"] else 0.0
 
     @property
     def largest_lag(self) -> float:
