@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     from magwire.scenario import names as scenario_names
     from magwire.session import Session as Session
     from magwire.simulation import Simulation as Simulation
+    from magwire.status import RunStatus as RunStatus
     from magwire.vessel import Vessel as Vessel
     from magwire.wire import Make as Make
     from magwire.wire import Section as Section
@@ -96,6 +97,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Scenario": ("magwire.scenario", "Scenario"),
     "ScenarioError": ("magwire.errors", "ScenarioError"),
     "Schedule": ("magwire.navigate", "Schedule"),
+    "RunStatus": ("magwire.status", "RunStatus"),
     "Section": ("magwire.wire", "Section"),
     "Session": ("magwire.session", "Session"),
     "Simulation": ("magwire.simulation", "Simulation"),
@@ -147,6 +149,7 @@ __all__ = [
     "Record",
     "Result",
     "ResultError",
+    "RunStatus",
     "Scenario",
     "ScenarioError",
     "Schedule",

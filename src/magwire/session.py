@@ -18,6 +18,7 @@ from magwire.engine.record import Record
 from magwire.engine.status import Status
 from magwire.errors import ConvergenceError, InputError, array, positive
 from magwire.operate import Assist
+from magwire.status import RunStatus
 
 if TYPE_CHECKING:
     from magwire.results import Result, Writer
@@ -81,7 +82,7 @@ class Session:
         if plant.time != self._recorded:
             writer.append(plant.record())
         if plant.status is not Status.CONVERGED:
-            writer.close("not converged", plant.message)
+            writer.close(RunStatus.NOT_CONVERGED, plant.message)
         writer.__exit__(kind, error, trace)
 
     def step(

@@ -35,6 +35,7 @@ from magwire.operate import (
     steered_records,
 )
 from magwire.session import Session
+from magwire.status import RunStatus
 from magwire.wire import Wire
 
 if TYPE_CHECKING:
@@ -236,12 +237,12 @@ class Simulation:
                         break
                 else:
                     converged = march.step == march.steps
-                    status = "complete" if converged else "not converged"
+                    status = RunStatus.COMPLETE if converged else RunStatus.NOT_CONVERGED
                     ending = Ending(status, march.plant.message)
                 said = [*getattr(navigator, "notes", ()), ending.message]
                 writer.close(ending.status, " ".join(said).strip())
             except NavigationError as error:
-                writer.close("no field", str(error))
+                writer.close(RunStatus.NO_FIELD, str(error))
         return writer.result()
 
     def _built(self, hardware: Hardware | None) -> System:

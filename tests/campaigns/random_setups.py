@@ -158,7 +158,7 @@ def gaps(where: mw.Lumen, points: Array) -> Array:
             away = np.linalg.norm(points[block, None] - at[None, :, :3], axis=2)
             depth = at[None, :, 3] - away
             k = np.argmax(depth, axis=1)
-            # Beside the axis of a thin tube the depth is no parabola over a whole step: look closer.
+            # Beside the axis of a thin tube depth is no parabola over a whole step: look closer.
             fine = np.clip(s[k][:, None] + s[1] * np.linspace(-1.0, 1.0, 17), 0.0, branch.length)
             near = branch.curve.at(fine.ravel()).reshape(*fine.shape, 4)
             depth = near[..., 3] - np.linalg.norm(points[block, None] - near[..., :3], axis=2)

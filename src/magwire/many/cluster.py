@@ -13,6 +13,7 @@ from typing import Any
 from magwire.errors import InputError
 from magwire.files import write_whole
 from magwire.many.job import Answer, Job
+from magwire.status import RunStatus
 
 AHEAD = 2  # runs given to the cluster for each of its threads: what waits there costs memory
 LOCAL = "local"
@@ -97,4 +98,8 @@ def carry_out(scenario: str, keep: bool) -> tuple[dict[str, Any], bytes]:
 
 
 def _lost(error: BaseException) -> dict[str, Any]:
-    return {"status": "failed", "message": f"The cluster lost the run: {error}", "numbers": {}}
+    return {
+        "status": RunStatus.FAILED,
+        "message": f"The cluster lost the run: {error}",
+        "numbers": {},
+    }

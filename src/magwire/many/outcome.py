@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from magwire.results import Result
+from magwire.status import RunStatus
 
 
 class Quantity(NamedTuple):
@@ -124,7 +125,7 @@ class Outcome:
     @property
     def complete(self) -> bool:
         """Whether the run went to its end."""
-        return self.status == "complete"
+        return self.status == RunStatus.COMPLETE
 
     def result(self) -> Result:
         """The whole result, from its file.

@@ -22,6 +22,7 @@ from typing import IO, Any
 
 from magwire.errors import MagwireError
 from magwire.many.job import Answer, Job
+from magwire.status import RunStatus
 
 GRACE = 5.0  # time that a worker gets to end when it is told to [s]
 THREADS = ("OMP", "OPENBLAS", "MKL", "NUMBA", "VECLIB_MAXIMUM")
@@ -54,7 +55,7 @@ class Worker:
         self._hang_up()
         if not stopping.is_set():
             self._process = self._start()
-        return {"status": "failed", "message": message, "numbers": {}}
+        return {"status": RunStatus.FAILED, "message": message, "numbers": {}}
 
     def stop(self) -> None:
         """End the process; a run that goes on leaves a result file that says "interrupted"."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from magwire.status import RunStatus
+
 
 def run(scenario: str, file: str | None) -> dict[str, Any]:
     """Run a scenario and say how it ended, whatever happens.
@@ -32,4 +34,8 @@ def run(scenario: str, file: str | None) -> dict[str, Any]:
             "numbers": numbers_of(result),
         }
     except Exception as error:  # one run must not sink the others
-        return {"status": "failed", "message": str(error) or type(error).__name__, "numbers": {}}
+        return {
+            "status": RunStatus.FAILED,
+            "message": str(error) or type(error).__name__,
+            "numbers": {},
+        }

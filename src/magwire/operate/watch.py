@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from magwire.engine.record import Record
 from magwire.errors import positive
+from magwire.status import RunStatus
 
 Array = NDArray[np.float64]
 
@@ -39,12 +40,12 @@ def inside(record: Record) -> Ending | None:
     if not record.clearance_along < 0.0:
         return None
     where = OUTSIDE.format(1e3 * record.feed, -1e6 * record.clearance_along)
-    return Ending("not converged", where)
+    return Ending(RunStatus.NOT_CONVERGED, where)
 
 
 def stable(record: Record) -> Ending | None:
     """End at an equilibrium that a wire would leave."""
-    return None if record.stable else Ending("unstable", UNSTABLE.format(1e3 * record.feed))
+    return None if record.stable else Ending(RunStatus.UNSTABLE, UNSTABLE.format(1e3 * record.feed))
 
 
 class Until:
@@ -63,7 +64,7 @@ class Until:
 
     def __call__(self, record: Record) -> Ending | None:
         """Look at a record."""
-        return Ending("complete") if self._tip_arc(record.position) >= self._arc else None
+        return Ending(RunStatus.COMPLETE) if self._tip_arc(record.position) >= self._arc else None
 
 
 class ForceLimit:
@@ -98,5 +99,5 @@ class ForceLimit:
             if force > self._limits[name]:
                 text = f"{1e3 * force:.4g} mN; the limit is {1e3 * self._limits[name]:.4g} mN."
                 where = f"At {1e3 * record.feed:.4g} mm of feed the {name} force is {text}"
-                return Ending("force limit", where)
+                return Ending(RunStatus.FORCE_LIMIT, where)
         return None

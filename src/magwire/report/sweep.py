@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from magwire.status import RunStatus
 from magwire.units import show
 
 if TYPE_CHECKING:
@@ -17,7 +18,7 @@ def lines(table: xr.Dataset) -> list[str]:
     """What to know of a sweep, a line each."""
     status = Counter(str(word) for word in table["status"].values)
     ended = ", ".join(f"{count} {word}" for word, count in status.most_common())
-    whole = table["status"].values == "complete"  # one that stopped early had not met all of it
+    whole = table["status"].values == RunStatus.COMPLETE  # others had not met all
     tips, wires = (
         int(np.count_nonzero(table[f"{part}_contact_free"].values[whole] == 1.0))
         for part in ("tip", "wire")

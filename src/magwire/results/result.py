@@ -14,6 +14,7 @@ from magwire.files import successor
 from magwire.pieces import Plain, at, largest, piece, pieces, spans
 from magwire.results import disk, forces, loading, plain
 from magwire.results.older import completed
+from magwire.status import RunStatus
 from magwire.units import show
 
 if TYPE_CHECKING:
@@ -152,12 +153,8 @@ class Result:
 
     @property
     def status(self) -> str:
-        """How it ended, or "running".
-
-        "complete", "not converged", "unstable", "no field", "interrupted", "terminated" or
-        "failed".
-        """
-        return str(self.held.attrs["status"])
+        """How it ended, a ``RunStatus``; or the word of the watcher that ended it."""
+        return RunStatus.of(self.held.attrs["status"])
 
     @property
     def message(self) -> str:
@@ -172,7 +169,7 @@ class Result:
     @property
     def converged(self) -> bool:
         """Whether the run went to its end with every step converged."""
-        return self.status == "complete"
+        return self.status == RunStatus.COMPLETE
 
     @property
     def scenario(self) -> str:

@@ -38,6 +38,7 @@ from magwire.results.contract import (
     running_attributes,
     sizes,
 )
+from magwire.status import RunStatus
 
 if TYPE_CHECKING:
     from magwire.results.result import Result
@@ -99,7 +100,9 @@ class Writer:
         self._attributes = opening_attributes(info, self.layout, magwire.__version__)
         row = sum(v.dtype.itemsize * self._numbers(v) for v in VARIABLES.values())
         self._most = max(1, MOST_WAITING // (row + RECORD_BYTES))
-        self._attributes |= {"status": "running", "message": ""} | running_attributes(None)
+        self._attributes |= {"status": str(RunStatus.RUNNING), "message": ""} | running_attributes(
+            None
+        )
         if self.path is not None:
             self._begin(self.path)
 
@@ -143,18 +146,20 @@ class Writer:
         Parameters
         ----------
         status
-            "complete", "not converged", "unstable", "no field", "interrupted", "terminated" or
-            "failed".
+            A ``RunStatus``, or the word of the watcher that ends the run.
         message
             One sentence on why, "" if the run is complete.
         """
         if self.closed:
             return
-        self._attributes |= running_attributes(self._last) | {"status": status, "message": message}
+        self._attributes |= running_attributes(self._last) | {
+            "status": str(status),
+            "message": message,
+        }
         self.closed = True
         if self.path is not None:
             try:
-                self._commit(self.path, status=status, message=message)
+                self._commit(self.path, status=str(status), message=message)
             except OSError as error:
                 raise _unwritable(self.path, error) from None
             finally:
@@ -179,13 +184,13 @@ class Writer:
         trace: TracebackType | None,
     ) -> None:
         if error is None:
-            self.close("complete")
+            self.close(RunStatus.COMPLETE)
         elif isinstance(error, KeyboardInterrupt):
-            self.close("interrupted", "The run was interrupted.")
+            self.close(RunStatus.INTERRUPTED, "The run was interrupted.")
         elif isinstance(error, Terminated):
-            self.close("terminated", str(error))
+            self.close(RunStatus.TERMINATED, str(error))
         else:
-            self.close("failed", str(error) or type(error).__name__)
+            self.close(RunStatus.FAILED, str(error) or type(error).__name__)
 
     def _columns(self, records: list[Record]) -> dict[str, Any]:
         """The variables of some records, each with time as its first axis."""

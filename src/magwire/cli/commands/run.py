@@ -18,6 +18,7 @@ from magwire.cli.folders import (
 from magwire.cli.options import Flag, Overrides
 from magwire.cli.words import INTERRUPTED, CommandError, complain, say, say_if_compiling
 from magwire.files import write_whole
+from magwire.status import RunStatus
 
 if TYPE_CHECKING:
     from magwire.actuate import Hardware
@@ -90,7 +91,7 @@ def carry_out(
                 (folder / name).unlink(missing_ok=True)
             write_whole(folder / SCENARIO, described.to_toml())
         results = [simulate(job, folder / RESULT, hardware=hardware)]
-        if compare and results[0] is not None and results[0].status != "interrupted":
+        if compare and results[0] is not None and results[0].status != RunStatus.INTERRUPTED:
             results.append(simulate(described.unsteered().build(), folder / PASSIVE))
         return _report(described, job.simulation.system.wire, folder, results, draw=draw)
 
@@ -144,10 +145,10 @@ def outcome(result: Result | None) -> int:
     if result is None:
         complain("The run without steering was interrupted before its first record.")
         return INTERRUPTED
-    if result.status == "complete":
+    if result.status == RunStatus.COMPLETE:
         return 0
     complain(result.message or f"The run ended early: {result.status}.")
-    return INTERRUPTED if result.status == "interrupted" else 1
+    return INTERRUPTED if result.status == RunStatus.INTERRUPTED else 1
 
 
 def simulate(job: Job, file: Path, *, hardware: Hardware | None = None) -> Result | None:

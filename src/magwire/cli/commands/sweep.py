@@ -7,6 +7,7 @@ from pathlib import Path
 from magwire.cli.folders import occupied, writing_to
 from magwire.cli.options import Flag
 from magwire.cli.words import INTERRUPTED, complain, say
+from magwire.status import RunStatus
 
 
 def sweep(
@@ -66,7 +67,7 @@ def sweep(
     for line in report.lines(table):
         say(line)
     say(f"{'written to':22}{folder}")
-    early = [str(word) for word in table["status"].values if word != "complete"]
+    early = [str(word) for word in table["status"].values if word != RunStatus.COMPLETE]
     if early:
         complain(
             f"{len(early)} of {runs} runs did not reach their end; the table's messages say why."
