@@ -21,8 +21,11 @@ SHORT = ("--set", "feed.distance=3 mm", "wire.nodes=24", "navigate.method=none")
 LONG = ("--set", "solver.time_step=1 ms", "navigate.method=none")
 
 
-def process(folder: Path, *words: object, patience: float = 240.0, **environment: str) -> Ended:
-    """A command as a process of its own; an empty value takes a variable away."""
+def process(folder: Path, *words: object, patience: float = 1800.0, **environment: str) -> Ended:
+    """A command as a process of its own; an empty value takes a variable away.
+
+    Its patience is for a cold cache on a machine that others use.
+    """
     begin = time.monotonic()
     env = {name: value for name, value in (os.environ | environment).items() if value}
     done = subprocess.run(
@@ -146,13 +149,52 @@ def extras(tally: Tally, folder: Path) -> None:
         tally.take(f"without {name}", ended, "" if right else f"it says {ended.said!r}")
 
 
+def clocks(tally: Tally, folder: Path) -> None:
+    """The clock of the day jumps by a day forth and back all the time, as when it is set.
+
+    Needs ``faketime`` (Debian's package), which leaves the clock for durations alone.
+    """
+    if shutil.which("faketime") is None:
+        tally.counts["clock that jumps: not run, faketime is not installed"] += 1
+        return
+    day = folder / "day"
+    changing = {"FAKETIME_TIMESTAMP_FILE": str(day), "FAKETIME_NO_CACHE": "1"}
+    library = subprocess.run(
+        ["faketime", "-m", "-f", "+0", "printenv", "LD_PRELOAD"],
+        capture_output=True, text=True, check=True,
+    ).stdout.strip()  # fmt: skip
+    own = {**changing, "LD_PRELOAD": library, "FAKETIME_DONT_FAKE_MONOTONIC": "1"}
+    day.write_text("+0\n")
+    over = threading.Event()
+
+    def jump() -> None:
+        while not over.wait(0.2):
+            for by in ("+1d", "-1d", "+30d", "+0"):
+                day.write_text(f"{by}\n")
+                over.wait(0.1)
+
+    thread = threading.Thread(target=jump)
+    thread.start()
+    (folder / "tubes.toml").write_text(SWEEP)
+    for kind, words in {
+        "run": ("run", "half-circle", *SHORT),
+        "sweep": ("sweep", "tubes.toml", "--workers", "1"),
+    }.items():
+        out = folder / kind
+        ended = process(folder, *words, "--out", out, "--force", **own)
+        wrong = unreadable(out) or ("" if ended.status == 0 else "it did not end well")
+        tally.take(f"clock that jumps, {kind}", ended, wrong)
+    over.set()
+    thread.join()
+
+
 def main() -> int:
     """Run as a script."""
     tally = Tally("places")
     warm()
     signal.signal(signal.SIGINT, signal.default_int_handler)
     with tempfile.TemporaryDirectory() as name:
-        for part in (extras, two_at_once, folder_that_goes, caches):
+        for part in (extras, two_at_once, folder_that_goes, clocks, caches):
             folder = Path(name) / part.__name__
             folder.mkdir()
             part(tally, folder)

@@ -8,10 +8,12 @@ from pathlib import Path
 
 import pytest
 
+import magwire as mw
 from magwire.cli import main
-from magwire.errors import MagwireError
+from magwire.errors import MagwireError, ScenarioError
 from magwire.many.sweep import read as read_sweep
 from magwire.scenario import load, parse, read_schedule
+from magwire.scenario.schedules import replayed
 from magwire.units import parse as parse_quantity
 
 DIGITS, HEX = "9" * 5000, "0x" + "f" * 5000
@@ -49,6 +51,25 @@ def test_numbers_and_nesting_without_end(text: str, said: str) -> None:
         parse(text)
     assert said in str(caught.value)
     assert max(map(len, str(caught.value).splitlines())) < 700
+
+
+def test_a_wire_too_thin_to_be_computed_with() -> None:
+    scenario = load("straight", ("wire.radius=1e-300 mm",))
+    with pytest.raises(MagwireError, match="wire.radius must be such that bending_stiffness"):
+        scenario.build()
+
+
+def test_the_scenario_of_a_damaged_result() -> None:
+    result = load("straight", ("feed.distance=1 mm", "wire.nodes=24")).run()
+    result.dataset.attrs["scenario"] = result.scenario.replace("=", "\n", 1)
+    with pytest.raises(ScenarioError, match="'of the result' is not valid TOML"):
+        replayed(result)
+
+
+def test_a_run_with_a_scenario_that_is_none() -> None:
+    job = load("straight", ("wire.nodes=24",)).build()
+    with pytest.raises(MagwireError, match="scenario of a run must be valid TOML"):
+        job.simulation.run(mw.Feed(1e-3, 1e-3), scenario="a b")
 
 
 def test_an_exponent_beyond_decimal_numbers() -> None:

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.engine.record import Record, RunInfo
-from magwire.files import parse_toml
+from magwire.errors import InputError
+from magwire.files import TextFaultError, parse_toml
 from magwire.results import forces, provenance
 from magwire.results.forces import Layout
 
@@ -329,7 +330,11 @@ def plain(text: str) -> str:
 
 
 def _title_of(scenario: str) -> str:
-    title = parse_toml(scenario).get("title", "")
+    try:
+        title = parse_toml(scenario).get("title", "")
+    except TextFaultError as error:
+        expected = "Input scenario of a run must be valid TOML; received a text that is not: "
+        raise InputError(f"{expected}{error}.") from None
     return title if isinstance(title, str) else ""
 
 

@@ -140,6 +140,7 @@ def replayed(
     finite("replayed", "scale", scale)
     if resample is not None:
         positive("replayed", "resample", resample, "m")
+    parse(result.scenario, source="of the result")  # a file may be damaged
     raw = parse_toml(result.scenario)
     raw["navigate"] = _recorded(result, scale, resample, inputs="actuator" in raw)
     raw.setdefault("solver", {})["motion"] = "dynamic"  # where a schedule proves itself (P-23)

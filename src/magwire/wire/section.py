@@ -12,6 +12,10 @@ MU_0 = 1.25663706127e-6
 """Magnetic constant [T m/A], CODATA 2022."""
 
 
+MOST = 1e100
+"""Largest stiffness of a section [N m^2], [N], and one over the smallest."""
+
+
 @dataclass(frozen=True)
 class Stiffness:
     """What a section resists with, as measured, whatever it is made of.
@@ -114,6 +118,16 @@ class Section:
         object.__setattr__(self, "rest_curvature", tuple(curvature.tolist()))
         twist = finite("Section", "rest_twist", self.rest_twist, "rad/m")
         object.__setattr__(self, "rest_twist", twist)
+        self._check_size()
+
+    def _check_size(self) -> None:
+        """Its stiffnesses are numbers that can be divided by."""
+        for name, unit in (("bending_stiffness", "N m^2"), ("stretching_stiffness", "N")):
+            value = getattr(self, name)
+            if not 1.0 / MOST <= value <= MOST:
+                expected = f"such that {name} is between {1.0 / MOST:g} and {MOST:g} {unit}"
+                unit = f"m, which makes it {value:g}"
+                raise refuse("Section", "radius", expected, self.radius, unit)
 
     def _check_stiffness(self) -> None:
         """Either moduli or a stiffness."""
