@@ -55,7 +55,7 @@ def test_numbers_and_nesting_without_end(text: str, said: str) -> None:
 
 def test_a_wire_too_thin_to_be_computed_with() -> None:
     scenario = load("straight", ("wire.radius=1e-300 mm",))
-    with pytest.raises(MagwireError, match="wire.radius must be such that bending_stiffness"):
+    with pytest.raises(MagwireError, match=r"wire\.radius must be such that bending_stiffness"):
         scenario.build()
 
 
