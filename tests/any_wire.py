@@ -24,12 +24,18 @@ STEPS = {"1 ms": 1e-3, "10 ms": 10e-3, "100 ms": 100e-3, "quasi-static": None}
 
 
 def pushed(
-    modulus: float, radius: float, step: float | None, *, push: float = 0.72, nodes: int = 100
+    modulus: float,
+    radius: float,
+    step: float | None,
+    *,
+    push: float = 0.72,
+    nodes: int = 100,
+    speed: float = 1e-3,
 ) -> tuple[Result, float]:
     """A run with the default wall, and its peak of F L^2/EI; no step is quasi-static motion."""
     wire = mw.Wire.uniform(L, radius, modulus, modulus / 2.6, 4000.0, nodes)
     simulation = mw.Simulation(wire, mw.Lumen.half_circle(0.25 * L, FREE + radius))
-    feed = mw.Feed(1e-3, push * L)
+    feed = mw.Feed(speed, push * L)
     if step is None:
         result = simulation.run(feed, motion="quasi-static")
     else:

@@ -27,3 +27,10 @@ def test_peak_of_a_hard_wall(modulus: float, radius: float, motion: str) -> None
     result, peak = pushed(modulus, radius, STEPS[motion], push=0.25)
     assert result.status == "complete"
     assert peak == pytest.approx(PEAK, rel=0.01)
+
+
+def test_what_is_above_is_inertia() -> None:
+    """The softest and thinnest of them swings in seconds: fed at 1 mm/s it knocks at the wall."""
+    peaks = [pushed(1e6, 0.1e-3, 1e-3, push=0.3, speed=v)[1] / PEAK - 1.0 for v in (1e-3, 2.5e-4)]
+    assert 0.01 < peaks[0] < 0.011
+    assert 0.0 < peaks[1] < 0.31 * peaks[0]
