@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from magwire.navigate.allocation import Allocated as Allocated
     from magwire.navigate.demands import Demands as Demands
     from magwire.navigate.stable import StableNavigator as StableNavigator
+    from magwire.navigate.timed import TimedInputs as TimedInputs
     from magwire.navigate.tip import TipNavigator as TipNavigator
     from magwire.operate import Ending as Ending
     from magwire.operate import ForceLimit as ForceLimit
@@ -104,6 +105,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "Snapshot": ("magwire.engine.plant", "Snapshot"),
     "StableNavigator": ("magwire.navigate.stable", "StableNavigator"),
     "Steering": ("magwire.navigate", "Steering"),
+    "TimedInputs": ("magwire.navigate.timed", "TimedInputs"),
     "TipNavigator": ("magwire.navigate.tip", "TipNavigator"),
     "UniformField": ("magwire.field", "UniformField"),
     "Vessel": ("magwire.vessel", "Vessel"),
@@ -159,6 +161,7 @@ __all__ = [
     "Snapshot",
     "StableNavigator",
     "Steering",
+    "TimedInputs",
     "TipNavigator",
     "UniformField",
     "Vessel",

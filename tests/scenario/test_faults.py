@@ -329,7 +329,7 @@ FAULTS = (
         "unknown navigator",
         ("navigate.method=magic",),
         "Input navigate.method must be one of 'none', 'stable', 'newton', 'paper', 'schedule', "
-        "'inputs'; received 'magic'.",
+        "'inputs', 'timed'; received 'magic'.",
     ),
     Fault(
         "key of another way to steer",

@@ -7,10 +7,10 @@ from dataclasses import replace
 from typing import Protocol, runtime_checkable
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from magwire.engine.record import Record
-from magwire.navigate import NavigationError, Navigator, Observation
+from magwire.navigate import Course, NavigationError, Navigator, Observation
 from magwire.operate.march import March
 
 Array = NDArray[np.float64]
@@ -28,6 +28,15 @@ class Persistent(Protocol):
         NavigationError
             If it gives up.
         """
+        ...
+
+
+@runtime_checkable
+class Timed(Protocol):
+    """A course whose inputs are functions of the time, not of the feed."""
+
+    def over(self, time: ArrayLike) -> Array:
+        """Inputs at times [s], shape (n, m)."""
         ...
 
 
@@ -82,7 +91,7 @@ def steered_records(
                     raise
                 march.go_back(navigator.go_back(seen, failure), update)
                 continue
-            march.steer(schedule.at(feeds))
+            march.steer(_inputs(march, schedule, feeds))
         step = min(every - march.step % every, update - march.step % update)
         converged = march.advance(step)
         if march.step % update == 0 or march.step == march.steps:
@@ -93,6 +102,13 @@ def steered_records(
             gone = float("nan")
         if not converged:
             return
+
+
+def _inputs(march: March, course: Course, feeds: Array) -> Array:
+    """Inputs at the ends of the next steps, shape (steps, m)."""
+    if isinstance(course, Timed):
+        return course.over((march.step + 1 + np.arange(len(feeds))) * march.time_step)
+    return course.at(feeds)
 
 
 def _told(march: March, seen: Observation, feeds: Array) -> Observation:
@@ -110,7 +126,8 @@ def _set_out(march: March, navigator: Navigator, update: int) -> None:
     except NavigationError:  # it is told when the march is on
         return
     plant = march.plant
-    plant.inputs = course.at(seen.feed)[0]
+    first = course.over(0.0) if isinstance(course, Timed) else course.at(seen.feed)
+    plant.inputs = first[0]
     if plant.released:
         plant.settle(plant.system.step_limits())
 

@@ -6,11 +6,13 @@ from collections.abc import Callable
 
 import numpy as np
 
+from magwire.actuate import Uniform
 from magwire.errors import InputError
 from magwire.scenario.kind import FAMILIES, Faults, KindTable
 from magwire.scenario.kinds.navigate import ModelSteering
 from magwire.scenario.kinds.navigate.inputs import InputSteering
 from magwire.scenario.kinds.navigate.stable import StableSteering
+from magwire.scenario.kinds.navigate.timed import TimedSteering
 from magwire.scenario.model import Scenario
 from magwire.scenario.quantity import SLACK
 from magwire.scenario.table import FaultyKeyError
@@ -97,6 +99,11 @@ def inputs_to_steer(scenario: Scenario) -> Faults:
             "Input navigate.objective needs an [actuator] whose inputs are planned; "
             f"received '{navigate.objective}' without one."
         )
+    if isinstance(navigate, TimedSteering) and (table is None or not any(table.faults())):
+        try:
+            navigate.inputs().of(Uniform() if table is None else table.build())
+        except InputError as error:
+            yield f"Input navigate.table: {error}"
     if not isinstance(navigate, InputSteering):
         return
     if table is None:

@@ -13,7 +13,7 @@ from magwire.errors import InputError
 from magwire.files import read_text, write_whole
 from magwire.navigate.inputs import InputSchedule
 from magwire.navigate.schedule import last_tries
-from magwire.scenario.columns import DIMENSIONS, FEED
+from magwire.scenario.columns import DIMENSIONS, FEED, KEYS
 from magwire.scenario.measured import Columns
 from magwire.scenario.schedules import table_of
 
@@ -44,6 +44,25 @@ def read_inputs(path: str | Path) -> InputSchedule:
         from magwire.results import Result
 
         return inputs_of(Result.load(path))
+    found = read_columns(path, FEED)
+    return InputSchedule(found.values[:, 0], found.values[:, 1:], found.names)
+
+
+def read_columns(path: Path, by: str) -> Columns:
+    """A CSV file with a header such as ``feed [m],Ix [A]``, or ``time [s],Ix [A]``.
+
+    Parameters
+    ----------
+    path
+        The file, in SI units.
+    by
+        The first column, which rises: "feed" or "time".
+
+    Raises
+    ------
+    InputError
+        If it is no such file.
+    """
     try:
         text = read_text(path)
     except OSError as error:
@@ -53,7 +72,7 @@ def read_inputs(path: str | Path) -> InputSchedule:
         raise InputError(f"Schedule file '{path}' is not a text file.") from None
     lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
     head, *rows = list(csv.reader(lines, skipinitialspace=True)) or [[""]]
-    return _course(path, head, rows)
+    return _columns(path, (by, KEYS[by][1]), head, rows)
 
 
 def write_inputs(course: InputSchedule, path: str | Path) -> Path:
@@ -93,17 +112,17 @@ def columns_of(course: InputSchedule) -> Columns:
     return Columns(course.names, np.column_stack([course.feed, course.inputs]))
 
 
-def _course(path: Path, head: list[str], rows: list[list[str]]) -> InputSchedule:
+def _columns(path: Path, first: tuple[str, str], head: list[str], rows: list[list[str]]) -> Columns:
     heads = [match.groups() if (match := _HEAD.fullmatch(word)) else None for word in head]
-    known = [one for one in heads if one is not None and one[1] in DIMENSIONS]
-    if len(known) != len(head) or len(head) < 2 or known[0] != (FEED, "m"):
+    known = [one for one in heads[1:] if one is not None and one[1] in DIMENSIONS]
+    if len(known) != len(head) - 1 or len(head) < 2 or heads[0] != first:
         raise InputError(
-            f"Schedule file '{path}' must start with a header such as 'feed [m],Ix [A],Iy [A]', in "
-            f"SI units; received '{','.join(head)}'."
+            f"Schedule file '{path}' must start with a header such as '{first[0]} [{first[1]}],"
+            f"Ix [A],Iy [A]', in SI units; received '{','.join(head)}'."
         )
-    names = [name for name, _ in known]
+    names = [first[0], *(name for name, _ in known)]
     if len(set(names)) < len(names):
         twice = next(name for name in names if names.count(name) > 1)
         raise InputError(f"Schedule file '{path}' must have each column once; {twice} comes twice.")
-    table = table_of(path, len(head), rows)
-    return InputSchedule(table[:, 0], table[:, 1:], tuple((a, b) for a, b in known[1:]))
+    table = table_of(path, len(head), rows, first)
+    return Columns(tuple((a, b) for a, b in known), table)

@@ -75,7 +75,7 @@ class Numbers(Sequence[tuple[float, ...]]):
 
 @dataclass(frozen=True, eq=False)
 class Columns:
-    """Columns by name, the first of which is the feed [m].
+    """Columns by name, the first of which is the feed [m] or the time [s].
 
     Attributes
     ----------

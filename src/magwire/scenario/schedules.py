@@ -130,6 +130,7 @@ def replayed(
     ScenarioError
         If the scenario has faults.
     """
+    from magwire.scenario.kinds.navigate.timed import TimedSteering
     from magwire.scenario.reader import parse
 
     if not result.scenario:
@@ -140,9 +141,12 @@ def replayed(
     finite("replayed", "scale", scale)
     if resample is not None:
         positive("replayed", "resample", resample, "m")
-    parse(result.scenario, source="of the result")  # a file may be damaged
+    whole = parse(result.scenario, source="of the result")  # a file may be damaged
     raw = parse_toml(result.scenario)
-    raw["navigate"] = _recorded(result, scale, resample, inputs="actuator" in raw)
+    if isinstance(whole.navigate, TimedSteering):
+        raw["navigate"] = whole.navigate.scaled(scale).model_dump(exclude_none=True)
+    else:
+        raw["navigate"] = _recorded(result, scale, resample, inputs="actuator" in raw)
     raw.setdefault("solver", {})["motion"] = "dynamic"  # where a schedule proves itself (P-23)
     return parse(tomli_w.dumps(raw), overrides, source="of the result")
 
@@ -181,13 +185,15 @@ def _schedule(text: str, path: Path) -> Schedule:
     return Schedule(table[:, 0], table[:, 1:])
 
 
-def table_of(path: Path, width: int, rows: Sequence[Sequence[str]]) -> NDArray[np.float64]:
-    """The numbers of a schedule file's rows, shape (n, width); the first column is the feed.
+def table_of(
+    path: Path, width: int, rows: Sequence[Sequence[str]], by: tuple[str, str] = ("feed", "m")
+) -> NDArray[np.float64]:
+    """The numbers of a schedule file's rows, shape (n, width); the first column rises.
 
     Raises
     ------
     InputError
-        If there are none, one is no finite number, or feeds do not increase.
+        If there are none, one is no finite number, or the first column does not increase.
     """
     if not rows:
         raise InputError(f"Schedule file '{path}' must have at least one row; received none.")
@@ -206,7 +212,8 @@ def table_of(path: Path, width: int, rows: Sequence[Sequence[str]]) -> NDArray[n
     if not rises.all():
         number = int(np.argmin(rises))
         raise InputError(
-            f"Schedule file '{path}' must have feeds that increase; received "
-            f"{table[number + 1, 0]:g} m after {table[number, 0]:g} m in row {number + 2}."
+            f"Schedule file '{path}' must have {by[0]}s that increase; received "
+            f"{table[number + 1, 0]:g} {by[1]} after {table[number, 0]:g} {by[1]} in row "
+            f"{number + 2}."
         )
     return table

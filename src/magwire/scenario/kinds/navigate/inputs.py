@@ -15,6 +15,8 @@ from magwire.scenario.kinds.navigate.schedule import FILE
 from magwire.scenario.measured import Columns
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from magwire.navigate import Navigator
     from magwire.navigate.inputs import InputSchedule
     from magwire.simulation import Simulation
@@ -39,23 +41,9 @@ class InputSteering(NavigatorTable):
     @classmethod
     def inline(cls, table: dict[str, Any], folder: Path) -> Inlined:
         """The table with the numbers of its file in it."""
-        if "file" not in table:
-            return Inlined(table, [])
-        rest = {key: value for key, value in table.items() if key not in ("file", "table")}
-        if "table" in table:
-            fault = "Input navigate.table cannot stand next to navigate.file; remove one of them."
-        elif not isinstance(table["file"], str):
-            fault = f"Input navigate.file must be the name of a file; received {table['file']!r}."
-        else:
-            from magwire.scenario.courses import columns_of, read_inputs
+        from magwire.scenario.courses import columns_of, read_inputs
 
-            try:
-                course = read_inputs(folder / table["file"])
-            except MagwireError as error:
-                fault = FILE.sub("Input navigate.file ", str(error), count=1)
-            else:
-                return Inlined({**rest, "table": columns_of(course)}, [])
-        return Inlined(rest, [fault], unread=(("navigate", "table"),))
+        return inlined(table, lambda name: columns_of(read_inputs(folder / name)))
 
     def schedule(self) -> InputSchedule:
         """The inputs that the table names."""
@@ -71,3 +59,20 @@ class InputSteering(NavigatorTable):
         actuator = simulation.system.actuator
         assert actuator is not None  # a rule between the tables
         return Prescribed(self.schedule().of(actuator))
+
+
+def inlined(table: dict[str, Any], read: Callable[[str], Columns]) -> Inlined:
+    """A table with the columns that are read of its file in it."""
+    if "file" not in table:
+        return Inlined(table, [])
+    rest = {key: value for key, value in table.items() if key not in ("file", "table")}
+    if "table" in table:
+        fault = "Input navigate.table cannot stand next to navigate.file; remove one of them."
+    elif not isinstance(table["file"], str):
+        fault = f"Input navigate.file must be the name of a file; received {table['file']!r}."
+    else:
+        try:
+            return Inlined({**rest, "table": read(table["file"])}, [])
+        except MagwireError as error:
+            fault = FILE.sub("Input navigate.file ", str(error), count=1)
+    return Inlined(rest, [fault], unread=(("navigate", "table"),))
