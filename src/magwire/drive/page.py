@@ -8,7 +8,7 @@ from importlib.resources import files
 from magwire.view.page import SCENE, filled
 from magwire.view.page import part as shared
 
-OWN = ("live.js", "fluoroscopy.js", "gauge.js", "steering.js", "hands.js", "cockpit.js")
+OWN = ("live.js", "fluoroscopy.js", "gauge.js", "steering.js", "hands.js", "pace.js", "cockpit.js")
 """What drives with it, each after those that it needs."""
 
 

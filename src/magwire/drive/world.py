@@ -15,7 +15,7 @@ from magwire.drive.account import Sight
 from magwire.simulation import Simulation
 
 LARGEST_FIELD = 0.08
-"""End of the slider of a uniform flux density [T]."""
+"""End of the slider of a uniform flux density, whose arrow is the longest [T]."""
 BENT = 2.0
 """Limit of the wall's force if none is given, over EI / R^2 of the tightest bend."""
 UNBENT = 50.0
@@ -88,6 +88,7 @@ def world(simulation: Simulation, *, title: str, limit: float, help_note: str) -
         },
         "inputs": inputs(simulation),
         "uniform": system.actuator is None,
+        "largestField": LARGEST_FIELD,
         "speed": speed,
         "fastest": FASTEST * speed,
         "turnRate": TURN_RATE,

@@ -5,6 +5,7 @@
   const { css, heat: heatColour } = parts.colours;
 
   const STROKE = 3; // rings of the lumen that are drawn with one stroke
+  const BY_PROCESSOR = { willReadFrequently: true }; // without WebGL quicker; of two canvases one alone would be read back each time
 
   // A line that is some pixels longer at both ends: what covers the seam to the stroke before.
   function longer(line, by) {
@@ -19,7 +20,7 @@
     constructor(canvas) {
       this.canvas = canvas;
       this.mode = "canvas";
-      this.pen = canvas.getContext("2d", { willReadFrequently: true }); // painted by the processor: without WebGL that is quicker
+      this.pen = canvas.getContext("2d", BY_PROCESSOR);
       this.still = document.createElement("canvas");
       this.key = "";
       this.moving = { heat: new Float32Array(0), tubes: [], arrows: [] };
@@ -55,7 +56,7 @@
       const { width, height } = this.canvas;
       this.still.width = width;
       this.still.height = height;
-      const pen = this.still.getContext("2d");
+      const pen = this.still.getContext("2d", BY_PROCESSOR);
       for (const { line, radius } of this.strokes(project)) {
         for (const [colour, width] of [[parts.colours.edge, 2 * radius], [parts.colours.fill, 2 * radius - 3]]) {
           pen.strokeStyle = colour;
