@@ -534,7 +534,7 @@ def test_keys_drive_the_wire_and_it_is_seen(chromium: Any, tmp_path: Path) -> No
 
 
 def test_a_slow_painter_gives_way(chromium: Any, tmp_path: Path) -> None:
-    """Without a graphics processor strokes are drawn; shaded pictures that are asked for go by pace."""
+    """Strokes without a graphics processor; shaded pictures that are asked for go by their pace."""
     served = Served(tmp_path, simulation())
     shown = Opened(chromium(), served)
 

@@ -33,7 +33,7 @@
 
     hear(message) {
       if ("connected" in message) this.connected = message.connected;
-      if (message.world && !this.world) this.build(message.world);
+      if (message.world) this.unpacked ??= this.unpack(message.world);
       if (message.role) this.role = message.role;
       if (message.said) this.notice(message.said);
       if (message.picture) {
@@ -44,13 +44,17 @@
       this.status();
     }
 
+    async unpack(world) {
+      this.build({ ...world, surface: await parts.data.unpackSurface(world.surface) });
+    }
+
     build(world) {
       this.world = world;
       this.find("h1").textContent = world.title || "magwire";
       this.camera = new parts.Camera();
       this.scene = new parts.Scene(this.find(".scene"), this.camera, true);
       const length = world.wire.length;
-      this.scene.setWorld({ branches: world.branches, wire: world.wire, path: [[0, 0, 0], [length, 0, 0]] });
+      this.scene.setWorld({ ...world, path: [[0, 0, 0], [length, 0, 0]] });
       this.most = world.largestField;
       this.scaled(world.limit);
       const pads = [["frontal", 0], ["lateral", 1]];
@@ -167,7 +171,7 @@
       const forces = parts.singles(picture.forces);
       if (picture.limit !== this.limit) this.scaled((this.limit = picture.limit));
       const suggested = world.uniform ? picture.suggested : null;
-      this.scene.show({ points, forces, field: picture.field, suggested });
+      this.scene.show({ points, forces, field: picture.field, time: picture.time, suggested });
       this.arms.forEach((arm, k) => (!this.turns || picture.rate === 0 || (this.pictures + k) % 2) && arm.show({ points }));
       this.gauge.show({ force: picture.wallForce, peak: picture.peak, limit: picture.limit, tip: picture.tipForce });
       if (picture.help === "assist" || !world.uniform || !this.synchronised) this.field.show(picture.inputs, picture.wanted, picture.heard);

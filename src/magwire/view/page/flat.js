@@ -32,6 +32,10 @@
       this.key = "";
     }
 
+    moveWall() {
+      this.key = "";
+    }
+
     setMoving(moving) {
       this.moving = moving;
     }

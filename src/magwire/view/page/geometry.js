@@ -142,6 +142,34 @@
     return mesh;
   }
 
+  // A wall that moves with the tissue as magwire.contact.motion says: moves the mesh to where it is at a time.
+  class Moving {
+    constructor(mesh, motions, entrance) {
+      const rest = mesh.positions.slice();
+      const centres = mesh.rings.map(({ centre }) => centre);
+      const rises = ({ ramp }, points) => points.map((point) => {
+        const s = Math.min(1, norm(sub(point, entrance)) / ramp);
+        return s * s * s * (10 - 15 * s + 6 * s * s);
+      });
+      const corners = Array.from({ length: rest.length / 3 }, (_, v) => at(rest, v));
+      Object.assign(this, { mesh, rest, centres });
+      this.motions = motions.map((motion) => ({ ...motion, corners: rises(motion, corners), rings: rises(motion, centres) }));
+    }
+
+    to(time) {
+      const { mesh, rest, centres } = this;
+      mesh.positions.set(rest);
+      mesh.rings.forEach((ring, k) => (ring.centre = centres[k]));
+      for (const { amplitude, period, corners, rings } of this.motions) {
+        const by = scale(amplitude, Math.sin((Math.PI * time) / period) ** 2);
+        corners.forEach((rise, v) => {
+          for (let i = 0; i < 3; i++) mesh.positions[3 * v + i] += rise * by[i];
+        });
+        mesh.rings.forEach((ring, k) => (ring.centre = add(ring.centre, scale(by, rings[k]))));
+      }
+    }
+  }
+
   // A third of the triangles around each corner [m^2].
   function areas({ positions, indices }) {
     const found = new Float32Array(positions.length / 3);
@@ -240,5 +268,5 @@
     }
   }
 
-  parts.geometry = { wall, surface, pressure, Solid, tangents };
+  parts.geometry = { wall, surface, Moving, pressure, Solid, tangents };
 })((window.magwireParts ??= {}));

@@ -66,8 +66,8 @@
 
     // branches: [{points: [[x, y, z], ...], radii}]; wire: {radius, onAxis, magnet: [flags]}, where onAxis
     // says that the wall holds the wire's centreline; path: all there is to see in open space [m]; surface:
-    // the wall's corners, triangles and rings, where it is not of balls.
-    setWorld({ branches, wire, path, surface }) {
+    // the wall's corners, triangles and rings, where it is not of balls; motions: of the wall, if it moves.
+    setWorld({ branches, wire, path, surface, motions = [] }) {
       this.wire = wire;
       this.branches = branches;
       this.mesh = surface ? parts.geometry.surface(surface) : parts.geometry.wall(branches);
@@ -81,6 +81,7 @@
       const high = [0, 1, 2].map((k) => Math.max(...points.map((point, i) => point[k] + radii[i])));
       this.size = norm(sub(high, low));
       this.entrance = points[0];
+      if (motions.length) this.moving = new parts.geometry.Moving(this.mesh, motions, this.entrance);
       this.inwards = unit(sub(points[Math.min(1, points.length - 1)], points[0]));
     }
 
@@ -89,14 +90,22 @@
       this.scales = { force, field, pressure };
     }
 
+    // Have the wall be where it is at a time.
+    move(time) {
+      if (!this.moving) return;
+      this.moving.to(time);
+      this.painter.moveWall(this.mesh);
+    }
+
     pressureOf(points, forces) {
       const skin = this.wire.onAxis ? 0 : this.wire.radius;
       return parts.geometry.pressure(this.mesh, points, forces, { skin, spread: SPREAD });
     }
 
     // points, forces: flat arrays of three for each node [m, N]; field: [x, y, z] at the tip [T]; suggested:
-    // what it should be, if anybody says.
-    show({ points, forces, field, suggested = null }) {
+    // what it should be, if anybody says; time [s].
+    show({ points, forces, field, time, suggested = null }) {
+      this.move(time);
       this.state = { points, forces, field, suggested };
       this.refresh();
     }

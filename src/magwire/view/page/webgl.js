@@ -119,6 +119,11 @@
       this.count = mesh.indices.length;
     }
 
+    // The same wall elsewhere.
+    moveWall(mesh) {
+      this.fill("wall", mesh.positions);
+    }
+
     // What moves: the pressure over the largest one, tubes, arrows.
     setMoving({ heat, tubes, arrows }) {
       const solid = new parts.geometry.Solid();
