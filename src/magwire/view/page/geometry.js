@@ -121,7 +121,7 @@
   // are in the order of these groups. rings: x, y, z and radius there, how many corners are in the group,
   // how far the farthest is, and whether a branch begins.
   function surface({ positions, indices, rings }) {
-    const mesh = { positions, indices: Uint32Array.from(indices), rings: [] };
+    const mesh = { positions, indices: Uint32Array.from(indices), rings: [], sheet: true };
     for (let k = 0, first = 0; k < rings.length; k += 7) {
       const [x, y, z, radius, count, far, begins] = rings.subarray(k, k + 7);
       mesh.rings.push({ centre: [x, y, z], radius, far, first, count, begins: begins > 0 });
@@ -145,7 +145,8 @@
   // A wall that moves with the tissue as magwire.contact.motion says: moves the mesh to where it is at a time.
   class Moving {
     constructor(mesh, motions, entrance) {
-      const rest = mesh.positions.slice();
+      const rest = mesh.positions;
+      mesh.positions = rest.slice();
       const centres = mesh.rings.map(({ centre }) => centre);
       const rises = ({ ramp }, points) => points.map((point) => {
         const s = Math.min(1, norm(sub(point, entrance)) / ramp);
