@@ -33,7 +33,8 @@ def take(browser: Any, name: str, folder: Path) -> None:
     with tempfile.TemporaryDirectory() as made:
         page = browser.new_page(viewport=SIZE)
         page.goto(result.view().save(Path(made) / "page.html").as_uri())
-        page.wait_for_function("!!window.magwire")
+        while not page.evaluate("!!window.magwire"):
+            page.wait_for_timeout(50)
         page.evaluate(f"magwire.seek({SHARE * float(result.time[-1])})")
         page.wait_for_timeout(500)
         shot = Image.open(io.BytesIO(page.screenshot())).convert("RGB")

@@ -19,7 +19,7 @@ from magwire.env.anatomy import Anatomy
 from magwire.env.picture import SMALL, View
 from magwire.env.task import AHEAD, Task
 from magwire.kernels.guide import place_held
-from magwire.kernels.outlook import ROW, ask, look_ahead
+from magwire.kernels.outlook import ROW, ask, look_ahead, settle
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -28,8 +28,8 @@ Seen = dict[str, NDArray[Any]]
 _AHEAD = np.array(AHEAD)
 BOUND = 10.0
 """No observed number is larger; those of a wire in its lumen are around one."""
-PROGRESS, SUCCESS, HASTE, PRESSURE, HARDEST = 10.0, 1.0, 0.2, 0.05, 10.0
-"""Weights of the reward; see ``Episodes.act``."""
+WEIGHTS = (10.0, 1.0, 0.2, 0.05, 10.0)
+"""Of the reward: progress, success, haste, force, and the largest force; see ``Episodes.act``."""
 
 
 class Episodes:
@@ -135,23 +135,15 @@ class Episodes:
         speed, rate = action[:, 0] * task.feed_speed, action[:, 1] * task.twist_rate
         applied = self._asked * self._gain
         ended = self.batch.step(speed, rate, applied, whole, only=only)
-        self._last = np.where(only[:, None], action, self._last)
+        self._last[only] = action[only]
         self._taken += only
-        before = self._arc.copy()
-        moved = np.flatnonzero(only)
+        before, moved = self._arc, np.flatnonzero(only)
         self._remember(self._look(moved), only)
-        failed = ended != 0
-        force = self.info["tip_force"]
-        now = np.minimum(self._arc, self._goal)
-        gained = np.where(only, (now - before) / self._goal, 0.0)
-        self.terminated = np.where(only, self._arc >= self._goal, self.terminated)
-        self.truncated = np.where(
-            only, (failed | (self._taken >= task.actions)) & ~self.terminated, self.truncated
-        )
-        pressed = np.minimum(force / task.force_limit, HARDEST)
-        reward = PROGRESS * gained + SUCCESS * self.terminated - HASTE / task.actions
-        self.reward = np.where(only, reward - PRESSURE * pressed, 0.0)
-        self.info["unconverged"][moved] = failed[moved]
+        force = self.info["tip_force"] / task.force_limit
+        over = (self.terminated, self.truncated)
+        course = (only, ended, self._taken, task.actions, before, self._arc, self._goal, force)
+        settle(*course, WEIGHTS, self.reward, over)
+        self.info["unconverged"][moved] = ended[moved] != 0
         command = self.info["command"]
         command[moved, 0], command[moved, 1] = speed[moved], rate[moved]
         command[moved, 2:] = applied[moved]
@@ -191,7 +183,7 @@ class Episodes:
             "unconverged": np.zeros(n, dtype=bool),
             "command": np.zeros((n, 2 + self.inputs)),
         }
-        for name, before in self.info.items():
+        for name, before in self.info.items() if len(fresh) < n else ():
             values = before.copy()
             values[fresh] = told[name][fresh]
             told[name] = values

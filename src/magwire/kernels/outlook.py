@@ -88,3 +88,25 @@ def ask(share, frames, limit, most, only, asked):
             else:
                 wanted = -limit * share[i, c]
             asked[i, c] += min(max(wanted - asked[i, c], -most), most)
+
+
+@kernel
+def settle(only, failed, taken, actions, before, arc, goal, force, weights, reward, ended):
+    """Reward each wire for what it did, and see whether its episode is over.
+
+    taken: actions so far, of as many as ``actions``; force: on the tip, over the limit; weights: of
+    progress, of success, of an episode's length, of force, and the largest force that counts;
+    reward, and ended by success or cut off: changed, shape (n,).
+    """
+    progress, success, haste, pressure, hardest = weights
+    terminated, truncated = ended
+    for i in range(arc.shape[0]):
+        reward[i] = 0.0
+        if not only[i]:
+            continue
+        there = arc[i] >= goal[i]
+        terminated[i] = there
+        truncated[i] = (failed[i] != 0 or taken[i] >= actions) and not there
+        gained = (min(arc[i], goal[i]) - before[i]) / goal[i]
+        gain = progress * gained + (success if there else 0.0) - haste / actions
+        reward[i] = gain - pressure * min(force[i], hardest)
