@@ -6,9 +6,16 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from magwire.contact import WallMotion
 from magwire.engine.record import Record, RunInfo, Scales, Totals
 
 SCALES = Scales(length=0.1, force=3.054e-5, flux_density=2.109e-4)
+
+
+BREATHING = (
+    WallMotion((0.0, 1e-3, 4e-3), period=7.0, ramp=30e-3),
+    WallMotion((0.5e-3, 0.0, 0.0), period=2.3, ramp=10e-3),
+)
 
 
 def half_circle(points: int = 60) -> np.ndarray:
@@ -25,7 +32,12 @@ def helix(points: int = 120) -> np.ndarray:
 
 
 def info(
-    centreline: np.ndarray | None = None, nodes: int = 20, *, title: str = "", scenario: str = ""
+    centreline: np.ndarray | None = None,
+    nodes: int = 20,
+    *,
+    title: str = "",
+    scenario: str = "",
+    wall_motion: tuple[WallMotion, ...] = (),
 ) -> RunInfo:
     """A run in a lumen of radius 3 mm; in open space if the centreline has no points."""
     line = half_circle() if centreline is None else centreline
@@ -39,6 +51,7 @@ def info(
         way=np.column_stack([line, np.full(len(line), 3e-3)]),
         title=title,
         scenario=scenario,
+        wall_motion=wall_motion,
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor, wait
+from concurrent.futures import ThreadPoolExecutor
 from typing import Literal, NamedTuple, Self
 
 import numpy as np
@@ -14,7 +14,7 @@ from magwire.engine.command import Command
 from magwire.engine.plant import Plant, Snapshot
 from magwire.engine.status import Status
 from magwire.errors import InputError, array, one_of, positive, whole
-from magwire.kernels.crew import SEEN, Orders, address_of, carry_out
+from magwire.kernels.crew import SEEN, Orders, address_of, carry_out, count_steps, lay_out
 from magwire.kernels.glance import GLANCE
 from magwire.simulation import Simulation
 
@@ -149,6 +149,10 @@ class Batch:
             held=np.zeros((n, inputs)),
             next=np.zeros(1, dtype=np.int64),
         )
+        self._given = (
+            *(np.zeros(n), np.zeros(n), np.zeros((n, inputs)), np.zeros(n)),
+            np.zeros(n, dtype=bool),
+        )
 
     def _enter(self, i: int, plant: Plant) -> None:
         """Note where a wire is in memory, and what belongs to it alone."""
@@ -235,36 +239,23 @@ class Batch:
         InputError
             If a value is not finite, or a duration is not positive.
         """
-        orders = self._orders
-        speed = np.asarray(feed_speed, dtype=np.float64)
-        rate = np.asarray(twist_rate, dtype=np.float64)
-        wanted = orders.held if inputs is None else np.asarray(inputs, dtype=np.float64)
-        if not np.isfinite(speed.sum() + rate.sum() + wanted.sum()):
+        speed, rate, wanted, time, moving = self._given
+        speed[:], rate[:], moving[:] = feed_speed, twist_rate, only
+        wanted[:] = self._orders.held if inputs is None else inputs
+        time[:] = self.time_step if duration is None else duration
+        counts = self._orders.counts
+        most = count_steps(speed, rate, wanted, time, moving, self.time_step, SLACK, counts)
+        if most == 0:
             raise InputError("Inputs of Batch.step must be finite; received some that are not.")
-        time = np.asarray(self.time_step if duration is None else duration, dtype=np.float64)
-        if not (time.min() > 0.0 and time.max() < np.inf):
+        if most < 0:
             raise InputError(
                 f"Input duration of Batch.step must be positive; received {time.min():.6g} s."
             )
-        counts = np.maximum(np.ceil(time / self.time_step - SLACK), 1.0)
-        orders.counts[:] = np.where(only, counts, -1)
-        orders.done[:] = orders.status[:] = 0
-        orders.time_step[:] = time / counts
-        self._make_room(int(counts.max()))
+        self._make_room(most)
         orders = self._orders
-        each, limit = orders.time_step, self._length
-        feed, twist = orders.guide[:, 0] * limit, orders.guide[:, 1].copy()
-        change = wanted - orders.held
-        for k in range(orders.feed.shape[1]):
-            feed = np.minimum(np.maximum(feed + speed * each, 0.0), limit)
-            twist = twist + rate * each
-            orders.feed[:, k], orders.twist[:, k] = feed / limit, twist
-            share = np.reshape((k + 1) / counts, (-1, 1))
-            # A linear course ends where it was told to, not within rounding of it.
-            course = orders.held + change * share
-            orders.inputs[:, k] = np.where(share == 1.0, wanted, course)
+        lay_out(speed, rate, wanted, time, self.time_step, SLACK, self._length, orders)
         self._carry_out()
-        self._time += orders.done * each
+        self._time += orders.done * orders.time_step
         return orders.status.copy()
 
     def _make_room(self, steps: int) -> None:
@@ -286,8 +277,8 @@ class Batch:
         try:
             carry_out(body, orders, self._inertia)
         finally:
-            if busy:
-                wait(busy)
+            for thread in busy:
+                thread.exception()  # waits for it
         for thread in busy:
             thread.result()
 

@@ -397,6 +397,7 @@ class Simulation:
             motion=motion,
             inputs=self.system.input_names,
             resistances=self.system.resistances,
+            wall_motion=self.system.wall_motion,
         )
         sheet = self.system.lumen.sheet
         if sheet is None:

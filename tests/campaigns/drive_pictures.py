@@ -25,6 +25,8 @@ from browsers import DRAWN, FLAT, started
 SIZE = {"width": 1180, "height": 740}
 LARGEST = 150_000  # bytes of a picture
 THROUGH = "magwire.picture.feed > 0.0765"
+SHADED = "magwire.cockpit.pace.slow = () => {}, document.querySelector('.way').click()"
+"""Has a page paint with WebGL, however slow it is here."""
 WAIT = 300.0  # longest time for anything [s]
 
 
@@ -53,7 +55,7 @@ class Visitor:
         self.folder = folder
         self.page.goto(address)
         self.until("window.magwire && magwire.pictures > 0")
-        self.page.evaluate("magwire.cockpit.looks = 1e9")  # WebGL, however slow it is here
+        self.page.evaluate(SHADED)
 
     def until(self, expression: str, meanwhile: Callable[[], None] = lambda: None) -> None:
         """Wait until the page says yes."""

@@ -533,6 +533,39 @@ def test_keys_drive_the_wire_and_it_is_seen(chromium: Any, tmp_path: Path) -> No
     assert served.outcome.account.peak_force >= recorded.max() > 0.0
 
 
+def test_a_slow_painter_gives_way(chromium: Any, tmp_path: Path) -> None:
+    """Strokes without a graphics processor; shaded pictures that are asked for go by their pace."""
+    served = Served(tmp_path, simulation())
+    shown = Opened(chromium(), served)
+
+    def painted(way: int, mode: str) -> None:
+        assert shown.ask("[magwire.cockpit.scene.way, magwire.mode]") == [way, mode]
+        shown.page.wait_for_timeout(100)
+        picture = shown.picture(".scene canvas")
+        assert len(np.unique(picture.reshape(-1, 3), axis=0)) > 50
+        assert shown.ask("document.querySelectorAll('.scene canvas').length") == 1
+
+    painted(2, "canvas")
+    words = shown.page.locator(".way")
+    assert words.inner_text() == "plain strokes"
+    shown.page.click(".way")
+    painted(0, "webgl2")
+    assert words.is_hidden()
+    shown.ask("magwire.cockpit.scene.repaint(1)")
+    painted(1, "webgl2")
+    shown.ask("[...Array(23)].forEach(() => magwire.cockpit.pace.took(16))")
+    shown.ask("[...Array(12)].forEach(() => magwire.cockpit.pace.took(300))")
+    assert shown.ask("magwire.mode") == "webgl2"  # some slow ones are none of its business
+    shown.ask("[...Array(36)].forEach(() => magwire.cockpit.pace.took(60))")
+    painted(2, "canvas")
+    assert words.inner_text() == "plain strokes"
+    shown.page.click(".end")
+    shown.until("magwire.cockpit.done")
+    assert not shown.faults
+    shown.page.close()
+    served.end()
+
+
 def test_rewind_reload_and_two_tabs(chromium: Any, tmp_path: Path) -> None:
     served = Served(tmp_path, simulation())
     shown = Opened(chromium(), served)

@@ -14,9 +14,11 @@ import pytest
 from magwire.cli import main
 from magwire.export import write_tables
 from magwire.export.mcap import TOPICS, orientations
+from magwire.export.pvd import _walls
 from magwire.export.wall import wall
 from magwire.results import Result, Writer
-from records import half_circle, info, records
+from magwire.view import content, looks
+from records import BREATHING, half_circle, info, records
 
 RAS = np.array([-1.0, -1.0, 1.0])
 
@@ -64,6 +66,26 @@ def test_tables(result: Path, data: Any, tmp_path: Path, frame: str, signs: np.n
         np.testing.assert_array_equal(nodes[f"contact_force_{axis} [N]"], force)
     np.testing.assert_array_equal(nodes["clearance [m]"], data["clearance"].values.ravel())
     assert set(nodes["node"]) == set(range(20))
+
+
+def test_a_wall_that_moves_is_where_it_is(data: Any, tmp_path: Path) -> None:
+    """Every corner where its tissue is, and the pressure on it still the force."""
+    writer = Writer(info(wall_motion=BREATHING))
+    for record in records(writer.info, 25):
+        writer.append(record)
+    writer.close("complete")
+    file = writer.result().save(tmp_path / "moving.nc")
+    moving = Result.load(file).dataset
+    assert looks.wall_motions(moving)[0].period == BREATHING[0].period
+    assert looks.wall_motions(data) == ()
+    rest = wall(content.branches(moving))
+    entrance = moving["way"].values[0]
+    for record, ((points, _), time) in enumerate(
+        zip(_walls(moving, content.branches(moving), "lps"), moving["time"].values, strict=True)
+    ):
+        shift = sum(motion.at(rest.points, entrance, time) for motion in BREATHING)
+        np.testing.assert_allclose(points, rest.points + shift, atol=1e-8)
+        assert (np.abs(shift).max() > 0.0) == (record > 0)
 
 
 def series(path: Path) -> list[tuple[float, Path]]:

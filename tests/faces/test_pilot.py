@@ -231,6 +231,9 @@ def test_assist_keeps_the_tip_off_the_wall(session: Session) -> None:
         if pilot.message:
             time.sleep(5e-3)
     assert session.plant.feed >= 22e-3
+    with pytest.raises(mw.InputError, match="switch it off to set it by hand"):
+        pilot.steer([0.0, 10e-3, 0.0])
+    np.testing.assert_array_equal(pilot.wanted, session.plant.inputs)
     assert session.plant.totals.max_tip_force == 0.0
     assert pilot.account.peak_force == 0.0
     assert np.linalg.norm(session.plant.inputs) > 1e-3

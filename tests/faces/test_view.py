@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,13 +14,14 @@ import pytest
 import xarray as xr
 from PIL import Image
 
-from browsers import FLAT, started
+from browsers import DRAWN, FLAT, started
 from magwire.cli import main
 from magwire.errors import InputError
 from magwire.results import Result, Writer
 from magwire.scenario import load
 from magwire.view import Page, packing, page
-from records import info, records
+from records import BREATHING, info, records
+from surfaces import tube
 
 NASTY = "</script><script>window.caught = 1</script><img src=x onerror='caught=1'> & \u2028"
 
@@ -222,6 +224,52 @@ def test_a_graphics_processor_that_goes_away(chromium: Any, tmp_path: Path) -> N
     assert shown.ask("magwire.mode") == "canvas"
     assert len(np.unique(shown.picture().reshape(-1, 3), axis=0)) > 50
     assert not shown.faults
+
+
+@pytest.mark.parametrize("painter", [DRAWN, FLAT])
+def test_a_wall_that_moves_is_where_it_is(
+    chromium: Any, tmp_path: Path, painter: tuple[str, ...]
+) -> None:
+    result = made(wall_motion=BREATHING)
+    shown = opened(chromium(painter), result.view(), tmp_path)
+
+    def corners(time_: float) -> np.ndarray:
+        shown.ask(f"magwire.seek({time_})")
+        return np.reshape(shown.ask("magwire.wall()"), (-1, 3))
+
+    rest, before = corners(0.0), shown.picture()
+    for time_ in (3.0, 44.0, 17.0):
+        moved = sum(motion.at(rest, np.zeros(3), time_) for motion in BREATHING)
+        assert np.abs(moved).max() > 1e-4
+        np.testing.assert_allclose(corners(time_) - rest, moved, atol=1e-7)
+    assert np.abs(shown.picture() - before).max() > 20.0
+    np.testing.assert_array_equal(corners(0.0), rest)
+    assert not shown.faults
+    assert "wall_period" not in made().dataset
+
+
+@pytest.mark.parametrize("painter", [DRAWN, FLAT])
+def test_triangles_are_drawn_as_they_are(
+    chromium: Any, tmp_path: Path, painter: tuple[str, ...]
+) -> None:
+    """A tube three times as broad as its balls is three times as high in the picture."""
+    line = np.linspace(0.0, 0.08, 60)[:, None] * [1.0, 0.0, 0.0]
+    run = info(line)
+    points, triangles = tube(line, lambda u, _: np.full(u.shape, 9e-3), 24)
+    heights = []
+    for known in (run, replace(run, surface=(points, triangles))):
+        writer = Writer(known)
+        for record in records(known, 30):
+            writer.append(record)
+        writer.close("complete")
+        shown = opened(chromium(painter), writer.result().view(), tmp_path)
+        shown.ask("magwire.preset('z')")
+        middle = shown.picture()[60:-60].mean(axis=2)
+        column = middle[:, round(0.45 * middle.shape[1])]
+        steps = np.flatnonzero(np.abs(np.diff(column)) > 3.0)
+        heights.append(steps.max() - steps.min())
+        assert not shown.faults
+    assert heights[1] / heights[0] == pytest.approx(3.0, rel=0.25)
 
 
 def test_titles_are_texts(chromium: Any, tmp_path: Path) -> None:

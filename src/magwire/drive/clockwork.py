@@ -12,8 +12,8 @@ import numpy as np
 
 from magwire.drive.pilot import Pilot
 
-PICTURES = 30.0
-"""Pictures a second."""
+PICTURES = 33.0
+"""Pictures a second: some that a page has no room for, and it still shows thirty."""
 PATIENCE = 0.1
 """How far the steps may be behind the clock before the clock is slowed [s]."""
 REST = 1.0
@@ -103,7 +103,7 @@ class Clockwork:
             due = max(due + dt, now - PATIENCE)
             self._measure(now)
             if acted or now - shown >= 1.0 / PICTURES:
-                shown = now
+                shown = min(now, max(shown + 1.0 / PICTURES, now - 1.0 / PICTURES))
                 self._show()
             time.sleep(max(0.0, due - time.monotonic()))
 

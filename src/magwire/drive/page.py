@@ -5,10 +5,10 @@ from __future__ import annotations
 from html import escape
 from importlib.resources import files
 
-from magwire.view.page import SCENE, filled
+from magwire.view.page import DATA, SCENE, filled
 from magwire.view.page import part as shared
 
-OWN = ("live.js", "fluoroscopy.js", "gauge.js", "steering.js", "hands.js", "cockpit.js")
+OWN = ("live.js", "fluoroscopy.js", "gauge.js", "steering.js", "hands.js", "pace.js", "cockpit.js")
 """What drives with it, each after those that it needs."""
 
 
@@ -17,7 +17,7 @@ def page(title: str) -> str:
     filling = {
         "title": escape(title),
         "style": part("drive.css"),
-        "scripts": "\n".join([*map(shared, SCENE), *map(part, OWN)]),
+        "scripts": "\n".join([*map(shared, (*SCENE, DATA)), *map(part, OWN)]),
     }
     return filled(part("drive.html"), filling)
 

@@ -138,10 +138,13 @@ class Pilot:
         Raises
         ------
         InputError
-            If they are not finite, not as many as the actuator has, or beyond its limits.
+            If they are not finite, not as many as the actuator has, or beyond its limits, or if the
+            navigator sets them.
         """
         wanted = array("Pilot", "inputs", inputs, self._wanted.shape)
         actuator = self.session.plant.system.actuator
+        if self.help == "assist":
+            raise InputError("The navigator sets the field: switch it off to set it by hand.")
         if actuator is None:
             if not float(np.linalg.norm(wanted)) <= LARGEST:
                 raise InputError(
@@ -175,6 +178,11 @@ class Pilot:
         """Have another navigator help, such as one to another target."""
         self._make = navigator
         self._begin_plan()
+
+    @property
+    def wanted(self) -> Array:
+        """Where the inputs are on their way to, shape (m,)."""
+        return self.session.plant.inputs if self.help == "assist" else self._wanted
 
     @property
     def idle(self) -> bool:

@@ -196,6 +196,7 @@ class Room:
         picture = seen(pilot.sight) | {
             "rate": self.clockwork.rate,
             "message": pilot.message,
+            "wanted": pilot.wanted.tolist(),
             "help": pilot.help,
             "suggested": None if pilot.suggested is None else pilot.suggested.tolist(),
             "target": self.world["target"],

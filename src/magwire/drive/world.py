@@ -13,9 +13,10 @@ from numpy.typing import ArrayLike
 
 from magwire.drive.account import Sight
 from magwire.simulation import Simulation
+from magwire.view import content
 
 LARGEST_FIELD = 0.08
-"""End of the slider of a uniform flux density [T]."""
+"""End of the slider of a uniform flux density, whose arrow is the longest [T]."""
 BENT = 2.0
 """Limit of the wall's force if none is given, over EI / R^2 of the tightest bend."""
 UNBENT = 50.0
@@ -71,6 +72,8 @@ def world(simulation: Simulation, *, title: str, limit: float, help_note: str) -
     system = simulation.system
     lumen, speed = system.lumen, usual_speed(simulation)
     branches = [lumen.centreline(i) for i in range(len(lumen.branches))]
+    tubes = [np.column_stack(branch) for branch in branches]
+    sheet = lumen.sheet
     paths = {name: lumen.path(name) for name in lumen.outlets} or {"outlet": system.path}
     ways = {name: path.centreline(points=ROUTE)[0].tolist() for name, path in paths.items()}
     return {
@@ -78,6 +81,8 @@ def world(simulation: Simulation, *, title: str, limit: float, help_note: str) -
         "branches": [
             {"points": points.tolist(), "radii": radii.tolist()} for points, radii in branches
         ],
+        "surface": None if sheet is None else content.sheet(sheet.points, sheet.triangles, tubes),
+        "motions": content.motions(system.wall_motion),
         "ways": ways if lumen.branches else {},
         "target": lumen.target,
         "wire": {
@@ -88,6 +93,7 @@ def world(simulation: Simulation, *, title: str, limit: float, help_note: str) -
         },
         "inputs": inputs(simulation),
         "uniform": system.actuator is None,
+        "largestField": LARGEST_FIELD,
         "speed": speed,
         "fastest": FASTEST * speed,
         "turnRate": TURN_RATE,

@@ -8,6 +8,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.contact import WallMotion
+
 Array = NDArray[np.float64]
 Motion = Literal["dynamic", "quasi-static"]
 
@@ -69,6 +71,8 @@ class RunInfo:
     surface
         Corners, shape (n, 3) [m], and triangles, shape (m, 3), of a wall that is a surface; none of
         a wall of balls.
+    wall_motion
+        How the wall moves.
     """
 
     nodes: int
@@ -88,6 +92,7 @@ class RunInfo:
         np.zeros((0, 3)),
         np.zeros((0, 3), dtype=np.int64),
     )
+    wall_motion: tuple[WallMotion, ...] = ()
 
 
 @dataclass(frozen=True)

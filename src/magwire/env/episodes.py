@@ -15,20 +15,21 @@ from numpy.typing import ArrayLike, NDArray
 from magwire.batch import Batch, Sight, start_of
 from magwire.engine.plant import Plant
 from magwire.env import anatomy
-from magwire.env.anatomy import ROWS, Anatomy
+from magwire.env.anatomy import Anatomy
 from magwire.env.picture import SMALL, View
 from magwire.env.task import AHEAD, Task
 from magwire.kernels.guide import place_held
+from magwire.kernels.outlook import ROW, ask, look_ahead, settle
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Seen = dict[str, NDArray[Any]]
 
-_AHEAD, _PLACES = np.array(AHEAD)[:, None], np.array((0.0, *AHEAD))
+_AHEAD = np.array(AHEAD)
 BOUND = 10.0
 """No observed number is larger; those of a wire in its lumen are around one."""
-PROGRESS, SUCCESS, HASTE, PRESSURE, HARDEST = 10.0, 1.0, 0.2, 0.05, 10.0
-"""Weights of the reward; see ``Episodes.act``."""
+WEIGHTS = (10.0, 1.0, 0.2, 0.05, 10.0)
+"""Of the reward: progress, success, haste, force, and the largest force; see ``Episodes.act``."""
 
 
 class Episodes:
@@ -69,6 +70,9 @@ class Episodes:
         self._last = np.zeros((count, 2 + self.inputs))
         self._taken = np.zeros(count, dtype=np.int64)
         self._arc, self._frame = np.zeros(count), np.zeros((count, 3, 3))
+        self._limit = task.input_limit if task.axes == "path" else -task.input_limit
+        self._seen, self._row = np.zeros((count, 8)), np.zeros(ROW)
+        self._numbered = np.zeros((count, observed(self.inputs)))
         self._views: list[View | None] = [None] * count
         self.reward = np.zeros(count)
         self.terminated, self.truncated = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
@@ -126,44 +130,23 @@ class Episodes:
         task, whole = self.task, self.task.action_time
         only = np.ones(len(self._rows), dtype=bool) if only is None else only
         action = np.minimum(np.maximum(np.asarray(actions, dtype=np.float64), -1.0), 1.0)
-        wanted = self._wanted(action[:, 2:])
         most = task.input_rate * whole
-        change = np.minimum(np.maximum(wanted - self._asked, -most), most)
-        asked = self._asked + change
-        self._asked = np.where(only[:, None], asked, self._asked)
+        ask(action[:, 2:], self._frame, self._limit, most, only, self._asked)
         speed, rate = action[:, 0] * task.feed_speed, action[:, 1] * task.twist_rate
         applied = self._asked * self._gain
         ended = self.batch.step(speed, rate, applied, whole, only=only)
-        self._last = np.where(only[:, None], action, self._last)
+        self._last[only] = action[only]
         self._taken += only
-        before = self._arc.copy()
-        moved = np.flatnonzero(only)
+        before, moved = self._arc, np.flatnonzero(only)
         self._remember(self._look(moved), only)
-        failed = ended != 0
-        force = self.info["tip_force"]
-        now = np.minimum(self._arc, self._goal)
-        gained = np.where(only, (now - before) / self._goal, 0.0)
-        self.terminated = np.where(only, self._arc >= self._goal, self.terminated)
-        self.truncated = np.where(
-            only, (failed | (self._taken >= task.actions)) & ~self.terminated, self.truncated
-        )
-        pressed = np.minimum(force / task.force_limit, HARDEST)
-        reward = PROGRESS * gained + SUCCESS * self.terminated - HASTE / task.actions
-        self.reward = np.where(only, reward - PRESSURE * pressed, 0.0)
-        self.info["unconverged"][moved] = failed[moved]
+        force = self.info["tip_force"] / task.force_limit
+        over = (self.terminated, self.truncated)
+        course = (only, ended, self._taken, task.actions, before, self._arc, self._goal, force)
+        settle(*course, WEIGHTS, self.reward, over)
+        self.info["unconverged"][moved] = ended[moved] != 0
         command = self.info["command"]
         command[moved, 0], command[moved, 1] = speed[moved], rate[moved]
         command[moved, 2:] = applied[moved]
-
-    def _wanted(self, share: Array) -> Array:
-        """Inputs that actions ask for, shape (n, m)."""
-        if self.task.axes == "world":
-            return share * self.task.input_limit
-        size = np.sqrt(share[:, 0] ** 2 + share[:, 1] ** 2 + share[:, 2] ** 2)
-        share = share * (self.task.input_limit / np.maximum(size, 1.0))[:, None]
-        frame = self._frame
-        turned = share[:, 0:1] * frame[:, 0] + share[:, 1:2] * frame[:, 1]
-        return np.asarray(turned + share[:, 2:3] * frame[:, 2])
 
     def share_of(self, inputs: Array) -> Array:
         """Which actions ask for some inputs, shape (n, m), beyond one where the limit is."""
@@ -181,9 +164,7 @@ class Episodes:
         if self.task.noise > 0.0:
             for i in fresh:
                 tip[i] += self.task.noise * self._chance[i].standard_normal(3)
-        rows = self._along(self._arc)
-        self._frame = rows[:, 0, 4:].reshape(-1, 3, 3)
-        seen: Seen = {"vector": self._numbers(sight, tip, rows).astype(np.float32)}
+        seen: Seen = {"vector": self._numbers(sight, tip).astype(np.float32)}
         if self.task.image:
             seen["image"] = self._images(fresh)
         self._tell(sight, fresh)
@@ -202,43 +183,21 @@ class Episodes:
             "unconverged": np.zeros(n, dtype=bool),
             "command": np.zeros((n, 2 + self.inputs)),
         }
-        for name, before in self.info.items():
+        for name, before in self.info.items() if len(fresh) < n else ():
             values = before.copy()
             values[fresh] = told[name][fresh]
             told[name] = values
         self.info = told
 
-    def _along(self, arc: Array) -> Array:
-        """Rows of the paths' tables at the tip and ahead of it, shape (n, 1 + ahead, 13)."""
-        ahead = arc[:, None] + _PLACES
-        place = np.minimum(ahead / self._spacing[:, None], ROWS - 1.000001)
-        row = place.astype(np.int64)
-        share = (place - row)[:, :, None]
-        which = self._rows[:, None]
-        low, high = self._paths[which, row], self._paths[which, row + 1]
-        return np.asarray(low + share * (high - low))
-
-    def _numbers(self, sight: Sight, tip: Array, rows: Array) -> Array:
-        """What is observed, shape (n, length of an observation)."""
-        task, n, m = self.task, len(self._rows), self.inputs
-        here, radius = rows[:, 0, :3], rows[:, 0, 3]
-        vectors = np.empty((n, 3 + len(AHEAD), 3))
-        vectors[:, 0], vectors[:, 1] = tip - here, sight.tip_direction
-        vectors[:, 2] = self._asked if task.axes == "path" else 0.0
-        vectors[:, 3:] = (rows[:, 1:, :3] - here[:, None]) / _AHEAD
-        turned = along(vectors, self._frame)
-        numbers = np.empty((n, observed(m)))
-        numbers[:, :2] = turned[:, 0, 1:] / radius[:, None]
-        numbers[:, 2:5] = turned[:, 1]
-        numbers[:, 5], numbers[:, 6] = self._arc / self._goal, sight.feed / self._goal
-        numbers[:, 7], numbers[:, 8] = np.sin(sight.twist), np.cos(sight.twist)
-        shown = turned[:, 2] if task.axes == "path" else self._asked
-        numbers[:, 9 : 9 + m] = shown / task.input_limit
-        numbers[:, 9 + m : 11 + 2 * m] = self._last
-        way = numbers[:, 11 + 2 * m :].reshape(n, len(AHEAD), 4)
-        way[:, :, :3], way[:, :, 3] = turned[:, 3:], rows[:, 1:, 3] / radius[:, None]
-        numbers[:, 11 + 2 * m :] = way.reshape(n, -1)
-        return np.minimum(np.maximum(numbers, -BOUND), BOUND)
+    def _numbers(self, sight: Sight, tip: Array) -> Array:
+        """What is observed, shape (n, length of an observation); the paths' frames are renewed."""
+        seen = self._seen
+        seen[:, :3], seen[:, 3:6] = tip, sight.tip_direction
+        seen[:, 6], seen[:, 7] = sight.feed, sight.twist
+        paths = (self._paths, self._spacing, self._goal, _AHEAD)
+        told = (self._arc, seen, self._asked, self._last, self._limit)
+        look_ahead(*paths, *told, self._row, self._frame, self._numbered)
+        return np.minimum(np.maximum(self._numbered, -BOUND), BOUND)
 
     def _remember(self, seen: Seen, moved: Flags) -> None:
         """Keep what is seen, and show what is due: late, and not after every action."""

@@ -85,13 +85,14 @@ def _walls(data: xr.Dataset, branches: list[Array], frame: Frame) -> Drawn:
     mesh = wall(branches)
     if "surface_points" in data:
         mesh = of_surface(data["surface_points"].values, data["surface_triangles"].values, branches)
-    points = turned(mesh.points, frame).astype("<f4")
+    wall_motions, entrance = looks.wall_motions(data), looks.entrance(data)
     known = looks.radius(data)
     skin = 0.0 if looks.on_axis(data) or known is None else known
     position, force = data["position"].values, data["contact_force"].values
     for record in range(len(position)):
-        pressure = mesh.pressure(position[record], force[record], skin)
+        moved = mesh.moved(wall_motions, entrance, float(data["time"].values[record]))
+        pressure = moved.pressure(position[record], force[record], skin)
         yield (
-            points,
+            turned(moved.points, frame).astype("<f4"),
             {"triangles": mesh.triangles, "point_data": {"pressure": pressure.astype("<f4")}},
         )

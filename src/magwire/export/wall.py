@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
+
+from magwire.contact import WallMotion
 
 Array = NDArray[np.float64]
 SIDES = 20
@@ -37,6 +40,13 @@ class Wall:
     points: Array
     triangles: NDArray[np.int64]
     radius: Array
+
+    def moved(self, motions: Sequence[WallMotion], entrance: Array, time: float) -> Wall:
+        """The wall where it is at a time [s]; itself if it does not move."""
+        if not motions:
+            return self
+        shift = sum(motion.at(self.points, entrance, time) for motion in motions)
+        return replace(self, points=self.points + shift)
 
     @cached_property
     def _areas(self) -> Array:

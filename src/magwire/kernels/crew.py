@@ -7,6 +7,7 @@ keeps the bodies alive.
 
 from __future__ import annotations
 
+from math import ceil, isfinite
 from typing import NamedTuple
 
 from llvmlite import ir
@@ -123,6 +124,47 @@ def work_off(like, orders, inertia):
             orders.guide[i, c] = p.state.guide[c]
         for c in range(p.state.inputs.shape[0]):
             orders.held[i, c] = p.state.inputs[c]
+
+
+@kernel
+def count_steps(speed, rate, wanted, time, only, step, slack, counts):
+    """Number of time steps of each wire's interval, -1 of a wire that stays as it is.
+
+    Returns the largest; 0 if a number is not finite, -1 if an interval is not positive.
+    """
+    most = 1
+    for i in range(time.shape[0]):
+        if not isfinite(speed[i]) or not isfinite(rate[i]):
+            return 0
+        for c in range(wanted.shape[1]):
+            if not isfinite(wanted[i, c]):
+                return 0
+    for i in range(time.shape[0]):
+        if not (time[i] > 0.0 and isfinite(time[i])):
+            return -1
+        most = max(most, ceil(time[i] / step - slack))
+        counts[i] = max(ceil(time[i] / step - slack), 1) if only[i] else -1
+    return most
+
+
+@kernel
+def lay_out(speed, rate, wanted, time, step, slack, length, orders):
+    """Feeds, angles and inputs at the end of every step; a linear course of inputs."""
+    for i in range(time.shape[0]):
+        orders.done[i] = orders.status[i] = 0
+        count = max(ceil(time[i] / step - slack), 1)
+        each, limit = time[i] / count, length[i]
+        orders.time_step[i] = each
+        feed, twist = orders.guide[i, 0] * limit, orders.guide[i, 1]
+        for k in range(max(orders.counts[i], 0)):
+            feed = min(max(feed + speed[i] * each, 0.0), limit)
+            twist += rate[i] * each
+            orders.feed[i, k], orders.twist[i, k] = feed / limit, twist
+            for c in range(wanted.shape[1]):
+                held = orders.held[i, c]
+                course = held + (wanted[i, c] - held) * ((k + 1) / count)
+                # It ends where it was told to, not within rounding of it.
+                orders.inputs[i, k, c] = wanted[i, c] if k + 1 == count else course
 
 
 @entry

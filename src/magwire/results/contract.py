@@ -294,6 +294,24 @@ CONSTANTS: dict[str, Constant] = {
         lambda i, _: i.surface[1],
         np.dtype(np.int32),
     ),
+    "wall_amplitude": Constant(
+        ("wall_motion", "xyz"),
+        "m",
+        "largest displacement of a wall that moves, in each of its motions",
+        lambda i, _: [one.amplitude for one in i.wall_motion],
+    ),
+    "wall_period": Constant(
+        ("wall_motion",),
+        "s",
+        "period of each motion",
+        lambda i, _: [one.period for one in i.wall_motion],
+    ),
+    "wall_ramp": Constant(
+        ("wall_motion",),
+        "m",
+        "distance from the entrance at which each motion is full",
+        lambda i, _: [one.ramp for one in i.wall_motion],
+    ),
 }
 
 
@@ -313,6 +331,7 @@ def sizes(info: RunInfo, layout: Layout) -> dict[str, int]:
         "surface_point": len(info.surface[0]),
         "surface_triangle": len(info.surface[1]),
         "corner": 3,
+        "wall_motion": len(info.wall_motion),
     }
 
 

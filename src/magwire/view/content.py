@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,6 +14,8 @@ from magwire.view import looks, packing
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from magwire.contact import WallMotion
 
 Array = NDArray[np.float64]
 POINT_STEP = 2e-4
@@ -59,6 +62,7 @@ def run(data: xr.Dataset, name: str) -> dict[str, Any]:
         },
         "branches": [packing.exact(tube, "float32") for tube in tubes],
         "surface": surface(data, tubes),
+        "motions": motions(looks.wall_motions(data)),
         "arrays": arrays(data, smallest),
     }
 
@@ -97,13 +101,35 @@ def branches(data: xr.Dataset) -> list[Array]:
     return [_thinned(tube[index == which]) for which in np.unique(index)]
 
 
+def motions(wall: Sequence[WallMotion]) -> list[dict[str, Any]]:
+    """How the wall moves, as the page takes it."""
+    return [
+        {"amplitude": np.asarray(one.amplitude).tolist(), "period": one.period, "ramp": one.ramp}
+        for one in wall
+    ]
+
+
 def surface(data: xr.Dataset, tubes: list[Array]) -> dict[str, packing.Packed] | None:
-    """The wall, if it is a surface: corners by the points of the centrelines next to them."""
+    """The wall, if it is a surface."""
     if "surface_points" not in data:
         return None
+    return sheet(data["surface_points"].values, data["surface_triangles"].values, tubes)
+
+
+def sheet(
+    points: Array, triangles: NDArray[np.int64], tubes: Sequence[Array]
+) -> dict[str, packing.Packed]:
+    """A wall that is a surface: corners by the points of the centrelines next to them.
+
+    Parameters
+    ----------
+    points, triangles
+        Corners, shape (n, 3) [m], and which of them each triangle has, shape (m, 3).
+    tubes
+        Points and radius of each branch, shape (q, 4) [m].
+    """
     balls = np.concatenate(tubes)
     begins = np.concatenate([np.arange(len(tube)) == 0 for tube in tubes])
-    points = data["surface_points"].values
     distance, nearest = KDTree(balls[:, :3]).query(points)
     order = np.argsort(nearest, kind="stable")
     place = np.empty_like(order)
@@ -113,7 +139,7 @@ def surface(data: xr.Dataset, tubes: list[Array]) -> dict[str, packing.Packed] |
     np.maximum.at(far, nearest, distance)
     return {
         "positions": packing.exact(points[order], "float32"),
-        "indices": packing.exact(place[data["surface_triangles"].values]),
+        "indices": packing.exact(place[triangles]),
         "rings": packing.exact(np.column_stack([balls, count, far, begins])),
     }
 

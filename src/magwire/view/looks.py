@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.contact import WallMotion
 from magwire.files import TextFaultError, parse_toml
 from magwire.units import parse
 
 if TYPE_CHECKING:
     import xarray as xr
 
+Array = NDArray[np.float64]
 UNKNOWN = 0.2
 """Radius of a wire that was set up in Python, over that of its lumen: results do not say it."""
 
@@ -45,6 +47,19 @@ def on_axis(data: xr.Dataset) -> bool:
     """Whether the wall holds the wire's centreline and not its surface (P-12)."""
     contact = tables(data).get("contact", {})
     return isinstance(contact, dict) and contact.get("wall") == "centreline"
+
+
+def wall_motions(data: xr.Dataset) -> tuple[WallMotion, ...]:
+    """How the wall moves; at rest in results of versions that did not say it."""
+    if "wall_period" not in data:
+        return ()
+    columns = (data[name].values for name in ("wall_amplitude", "wall_period", "wall_ramp"))
+    return tuple(WallMotion(a, float(t), float(r)) for a, t, r in zip(*columns, strict=True))
+
+
+def entrance(data: xr.Dataset) -> Array:
+    """Where the wire comes in, shape (3,) [m]."""
+    return np.asarray(data["way"].values[0], dtype=np.float64)
 
 
 def magnets(data: xr.Dataset) -> NDArray[np.bool_]:

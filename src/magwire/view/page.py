@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 
 SCENE = ("algebra.js", "colours.js", "camera.js", "geometry.js", "webgl.js", "flat.js", "scene.js")
 """What draws a wire in its lumen from arrays, each after those that it needs."""
-PLAYBACK = ("data.js", "curves.js", "player.js")
+DATA = "data.js"
+"""What unpacks arrays."""
+PLAYBACK = (DATA, "curves.js", "player.js")
 """What replays a result with it."""
 MOST = 2
 """Results that fit side by side."""

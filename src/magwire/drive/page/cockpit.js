@@ -8,8 +8,7 @@
   const RISE = 0.25; // of the largest field a second, by keys
   const SPREAD = 0.8; // as in scene.js
   const REWIND = 2; // seconds
-  const LOOKS = 8; // pictures by which the painter is judged
-  const AT_MOST = 30; // ms that one of them may take, or plain strokes are quicker: there is no graphics processor
+  const WAYS = ["shaded", "shaded coarsely", "plain strokes"]; // as in scene.js
 
   class Cockpit {
     constructor(root) {
@@ -19,6 +18,8 @@
       this.hands = new parts.Hands({ changed: (event) => this.hold(event), pressed: (key) => this.press(key) });
       this.gauge = new parts.Gauge(this.find(".gauge"));
       this.last = { feed: 0, twist: 0 };
+      this.pace = new parts.Pace(() => this.hurry());
+      this.pictures = 0;
       this.controls();
       this.live = new parts.Live((message) => this.hear(message));
       setInterval(() => this.hold(), SAY_EVERY / 2); // pictures may be slow; hands are not
@@ -32,7 +33,7 @@
 
     hear(message) {
       if ("connected" in message) this.connected = message.connected;
-      if (message.world && !this.world) this.build(message.world);
+      if (message.world) this.unpacked ??= this.unpack(message.world);
       if (message.role) this.role = message.role;
       if (message.said) this.notice(message.said);
       if (message.picture) {
@@ -43,14 +44,18 @@
       this.status();
     }
 
+    async unpack(world) {
+      this.build({ ...world, surface: await parts.data.unpackSurface(world.surface) });
+    }
+
     build(world) {
       this.world = world;
       this.find("h1").textContent = world.title || "magwire";
       this.camera = new parts.Camera();
-      this.scene = new parts.Scene(this.find(".scene"), this.camera);
+      this.scene = new parts.Scene(this.find(".scene"), this.camera, true);
       const length = world.wire.length;
-      this.scene.setWorld({ branches: world.branches, wire: world.wire, path: [[0, 0, 0], [length, 0, 0]] });
-      this.most = Math.max(...world.inputs.map(({ high }) => high));
+      this.scene.setWorld({ ...world, path: [[0, 0, 0], [length, 0, 0]] });
+      this.most = world.largestField;
       this.scaled(world.limit);
       const pads = [["frontal", 0], ["lateral", 1]];
       const directions = parts.projections(this.scene);
@@ -71,6 +76,7 @@
       }
       this.outlets();
       this.scene.afterwards = () => this.placeOutlets();
+      this.showWay();
       this.preset("overview");
     }
 
@@ -85,6 +91,11 @@
       for (const button of this.root.querySelectorAll("[data-rewind]")) button.addEventListener("click", () => this.say({ rewind: Number(button.dataset.rewind) }));
       for (const button of this.root.querySelectorAll("[data-preset]")) button.addEventListener("click", () => this.preset(button.dataset.preset));
       this.find(".limit").addEventListener("change", ({ target }) => this.say({ limit: Number(target.value) / 1e3 }));
+      this.find(".way").addEventListener("click", () => {
+        this.scene.repaint(0);
+        this.turns = false;
+        this.showWay();
+      });
       this.find(".take").addEventListener("click", () => this.say({ take: true }));
       this.find(".end").addEventListener("click", () => this.say({ end: true }));
       addEventListener("resize", () => this.untouched && this.preset(this.untouched));
@@ -134,8 +145,11 @@
     }
 
     turn(now) {
-      const dt = Math.min(0.1, (now - this.before) / 1e3);
+      const span = now - this.before;
+      const dt = Math.min(0.1, span / 1e3);
       this.before = now;
+      if (this.painted) this.pace.took(span);
+      this.painted = false;
       if (!this.world) return;
       const { sideways, upwards, stronger } = this.hands.shares();
       if (this.world.uniform && (sideways || upwards || stronger) && this.picture?.help !== "assist") {
@@ -144,7 +158,10 @@
         this.field.turn(sideways * TURN * dt, upwards * TURN * dt);
         this.mine = now;
       }
-      if (this.fresh) this.show();
+      if (this.fresh) {
+        this.show();
+        this.painted = true;
+      }
     }
 
     show() {
@@ -154,11 +171,10 @@
       const forces = parts.singles(picture.forces);
       if (picture.limit !== this.limit) this.scaled((this.limit = picture.limit));
       const suggested = world.uniform ? picture.suggested : null;
-      this.paint({ points, forces, field: picture.field, suggested });
-      this.arms.forEach((arm) => arm.show({ points }));
+      this.scene.show({ points, forces, field: picture.field, time: picture.time, suggested });
+      this.arms.forEach((arm, k) => (!this.turns || picture.rate === 0 || (this.pictures + k) % 2) && arm.show({ points }));
       this.gauge.show({ force: picture.wallForce, peak: picture.peak, limit: picture.limit, tip: picture.tipForce });
-      if (picture.help === "assist" || !this.synchronised) this.field.show(picture.inputs);
-      else if (!world.uniform) this.field.show(picture.inputs);
+      if (picture.help === "assist" || !world.uniform || !this.synchronised) this.field.show(picture.inputs, picture.wanted, picture.heard);
       this.synchronised = true;
       this.field.suggest(suggested);
       const words = { clock: `${picture.time.toFixed(1)} s`, inserted: `${(1e3 * picture.feed).toFixed(1)} mm`, push: parts.newtons(picture.push), strength: `${(1e3 * norm(picture.field)).toFixed(1)} mT`, clearance: picture.clearance === null ? "–" : `${(1e3 * picture.clearance).toFixed(2)} mm` };
@@ -170,23 +186,20 @@
         this.latencies.push(performance.now() - this.pending.stamp);
         this.pending = null;
       }
-      this.pictures = (this.pictures ?? 0) + 1;
+      this.pictures += 1;
     }
 
-    // The 3D picture; at first it is measured how long one takes, by the quickest of some.
-    paint(state) {
-      this.quickest ??= Infinity;
-      this.looks ??= 0;
-      if (this.looks >= LOOKS || this.scene.mode === "canvas") {
-        this.scene.show(state);
-        return;
-      }
-      const began = performance.now();
-      this.scene.show(state);
-      this.scene.finish();
-      this.quickest = Math.min(this.quickest, performance.now() - began);
-      this.looks += 1;
-      if (this.looks === LOOKS && this.quickest > AT_MOST) this.scene.flatten();
+    // Pictures take too long: shade less, or else paint the C-arms' in turns.
+    hurry() {
+      this.turns = !this.scene.hurry();
+      this.showWay();
+    }
+
+    // How the 3D picture is painted, if not in the best way.
+    showWay() {
+      const { way } = this.scene;
+      this.find(".way").textContent = WAYS[way];
+      this.find(".way").hidden = way === 0;
     }
 
     aim(target) {
@@ -268,7 +281,7 @@
       get picture() { return cockpit.picture; },
       get role() { return cockpit.role; },
       get latencies() { return cockpit.latencies; },
-      get pictures() { return cockpit.pictures ?? 0; },
+      get pictures() { return cockpit.pictures; },
       get gauge() { return { force: cockpit.gauge.force, level: cockpit.gauge.level, written: cockpit.gauge.output.textContent }; },
       points: () => [...cockpit.scene.state.points],
       forces: () => [...cockpit.scene.state.forces],

@@ -48,8 +48,8 @@
     }
 
     // As for a scene; ways: the course to each outlet.
-    setWorld({ branches, wire, ways, target }) {
-      Object.assign(this, { branches, wire, ways, target });
+    setWorld({ branches, surface, wire, ways, target }) {
+      Object.assign(this, { branches, surface, wire, ways, target });
       this.lumenRadius = Math.min(...branches.flatMap(({ radii }) => radii), Infinity);
       this.resize();
     }
@@ -94,11 +94,16 @@
       this.paintRoute(pen);
     }
 
-    // The rim of all branches together: their shadow less the same a little slimmer.
+    // The rim of all branches together: their shadow less the same a little slimmer; or that of the triangles.
     outline() {
       const layer = document.createElement("canvas");
       [layer.width, layer.height] = [this.still.width, this.still.height];
       const pen = layer.getContext("2d", BY_PROCESSOR);
+      if (this.surface) {
+        pen.strokeStyle = ROADMAP;
+        parts.outline(pen, this.surface, this.project, 2.6, () => (pen.globalCompositeOperation = "destination-out"));
+        return layer;
+      }
       pen.lineCap = "butt";
       for (const [operation, colour, less] of [["source-over", ROADMAP, 0], ["destination-out", "#000", 2.6]]) {
         pen.globalCompositeOperation = operation;

@@ -116,23 +116,39 @@
     }
   }
 
+  // An input of an actuator as it is read: lengths in mm, with as many digits as its range needs.
+  function reader({ unit, low, high }) {
+    const [factor, name] = unit === "m" ? [1e3, "mm"] : [1, unit];
+    const digits = Math.max(0, 3 - Math.ceil(Math.log10(factor * (high - low) || 1)));
+    return (value) => `${(factor * value).toFixed(digits).replace(/^-(?=0(\.0*)?$)/, "")} ${name}`;
+  }
+
   class Sliders {
+    // changed: called with all inputs, where they are to go; gives the number that is answered when it is heard.
     constructor(holder, inputs, changed) {
-      this.rows = inputs.map(({ name, unit, low, high }) => {
+      this.asked = 0;
+      holder.classList.add("inputs");
+      this.rows = inputs.map((input, k) => {
+        const { name, low, high } = input;
         const label = document.createElement("label");
         const slider = Object.assign(document.createElement("input"), { type: "range", min: low, max: high, step: (high - low) / 400, value: 0 });
         const reading = document.createElement("output");
-        label.append(`${name} `, slider, reading);
+        label.append(name, slider, reading);
         holder.append(label);
-        slider.addEventListener("input", () => changed(this.rows.map((row) => Number(row.slider.value))));
-        return { slider, reading, unit };
+        slider.addEventListener("input", () => {
+          this.wanted[k] = Number(slider.value);
+          this.asked = changed(this.wanted);
+        });
+        return { slider, reading, read: reader(input) };
       });
     }
 
-    show(values) {
-      this.rows.forEach(({ slider, reading, unit }, k) => {
-        if (document.activeElement !== slider) slider.value = values[k];
-        reading.textContent = `${values[k].toPrecision(3)} ${unit}`;
+    // values: what they are; wanted: where they are on their way to; heard: number of what was heard last.
+    show(values, wanted, heard) {
+      if (heard >= this.asked) this.wanted = wanted;
+      this.rows.forEach(({ slider, reading, read }, k) => {
+        if (!slider.matches(":active")) slider.value = this.wanted[k];
+        reading.textContent = read(values[k]);
       });
     }
 

@@ -25,6 +25,7 @@ NEAR, FAR = 50e-3, 70e-3  # feeds between which it goes [m]
 TURNS = 0.05  # how likely the feed turns round in a step
 DT, CONTROL = 7e-5, 0.01  # MuJoCo's step; an action [s]
 MUJOCO_STEPS = 40
+FED = 6  # the number of an observation that is the feed, over what is far
 
 
 def options(*, deep: bool) -> dict[str, Any]:
@@ -63,13 +64,14 @@ def batch(threads: int, *, deep: bool, steps: int) -> Sample:
     from magwire.env import WireVectorEnv
 
     env = WireVectorEnv(WIRES, autoreset_mode="SameStep", threads=threads, **options(deep=deep))
-    env.reset(seed=0)
+    seen, _ = env.reset(seed=0)
     driver = Driver(WIRES, deep=deep)
     wires = env.episodes.batch
+    far = wires.observe().feed.max() / max(float(seen[:, FED].max()), 1e-6)
     before = _iterations(wires)
     began = time.perf_counter()
     for _ in range(steps):
-        env.step(driver.actions(wires.observe().feed))
+        seen = env.step(driver.actions(far * seen[:, FED]))[0]
     seconds = time.perf_counter() - began
     count = WIRES * steps
     newton = (_iterations(wires) - before) / count if deep else float("nan")
@@ -82,12 +84,13 @@ def alone(steps: int) -> Sample:
     from magwire.env import WireEnv
 
     env = WireEnv(**options(deep=True))
-    env.reset(seed=0)
+    seen, _ = env.reset(seed=0)
     driver, wires = Driver(1, deep=True), env.episodes.batch
+    far = wires.observe().feed[0] / seen[FED]
     before = _iterations(wires)
     began = time.perf_counter()
     for _ in range(steps):
-        env.step(driver.actions(wires.observe().feed)[0])
+        seen = env.step(driver.actions(far * seen[None, FED])[0])[0]
     seconds = time.perf_counter() - began
     return {"rate": steps / seconds, "newton": (_iterations(wires) - before) / steps}
 

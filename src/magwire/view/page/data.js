@@ -27,6 +27,11 @@
     return packed.kind === "float32" ? new Float32Array(buffer) : new Float64Array(buffer);
   }
 
+  // A wall that is a surface, if there is one.
+  async function unpackSurface(packed) {
+    return packed && { positions: await unpack(packed.positions), indices: await unpack(packed.indices), rings: await unpack(packed.rings) };
+  }
+
   // A run with its arrays unpacked and its branches as scenes take them.
   async function unpackRun(run) {
     const names = Object.keys(run.arrays);
@@ -41,11 +46,7 @@
       }
       return made;
     });
-    const surface = run.surface && {
-      positions: await unpack(run.surface.positions),
-      indices: await unpack(run.surface.indices),
-      rings: await unpack(run.surface.rings),
-    };
+    const surface = await unpackSurface(run.surface);
     const width = 3 * run.wire.magnet.length;
     const row = (name, k) => arrays[name].subarray(width * k, width * (k + 1));
     return {
@@ -71,5 +72,5 @@
     return Math.abs(times[high] - time) < Math.abs(times[low] - time) ? high : low;
   }
 
-  parts.data = { unpackRun, nearest };
+  parts.data = { unpackRun, unpackSurface, nearest };
 })((window.magwireParts ??= {}));

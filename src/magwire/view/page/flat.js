@@ -4,7 +4,9 @@
   const { add, scale, norm } = parts.algebra;
   const { css, heat: heatColour } = parts.colours;
 
+  const MANY = 3 * 400; // corners of triangles that are painted at once
   const STROKE = 3; // rings of the lumen that are drawn with one stroke
+  const BY_PROCESSOR = { willReadFrequently: true }; // without WebGL quicker; of two canvases one alone would be read back each time
 
   // A line that is some pixels longer at both ends: what covers the seam to the stroke before.
   function longer(line, by) {
@@ -15,11 +17,36 @@
     return [beyond(line[0], line[1]), ...line.slice(1, -1), beyond(line.at(-1), line.at(-2))];
   }
 
+  // Paint the outline of triangles together with one pair of strokes: all edges, and then what lies within them.
+  // within: sets how the inside is painted.
+  function outline(pen, { positions, indices }, project, width, within) {
+    const seen = Array.from({ length: positions.length / 3 }, (_, v) => project(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]));
+    const paint = (each) => {
+      for (let k = 0; k < indices.length; k += 3) {
+        if (k % MANY === 0) pen.beginPath();
+        const [a, b, c] = [seen[indices[k]], seen[indices[k + 1]], seen[indices[k + 2]]];
+        const turned = (b[0] - a[0]) * (c[1] - a[1]) < (b[1] - a[1]) * (c[0] - a[0]); // all one way round, or some would be holes
+        const [from, to] = turned ? [b, a] : [a, b];
+        pen.moveTo(from[0], from[1]);
+        pen.lineTo(to[0], to[1]);
+        pen.lineTo(c[0], c[1]);
+        pen.closePath();
+        if ((k + 3) % MANY === 0 || k + 3 === indices.length) each();
+      }
+    };
+    pen.lineJoin = "round";
+    pen.lineWidth = 2 * width + 1;
+    paint(() => pen.stroke());
+    within(pen);
+    pen.lineWidth = 1; // over the seams
+    paint(() => (pen.fill(), pen.stroke()));
+  }
+
   class FlatPainter {
     constructor(canvas) {
       this.canvas = canvas;
       this.mode = "canvas";
-      this.pen = canvas.getContext("2d", { willReadFrequently: true }); // painted by the processor: without WebGL that is quicker
+      this.pen = canvas.getContext("2d", BY_PROCESSOR);
       this.still = document.createElement("canvas");
       this.key = "";
       this.moving = { heat: new Float32Array(0), tubes: [], arrows: [] };
@@ -28,6 +55,10 @@
 
     setWall(mesh) {
       this.mesh = mesh;
+      this.key = "";
+    }
+
+    moveWall() {
       this.key = "";
     }
 
@@ -50,12 +81,17 @@
       for (const arrow of this.moving.arrows) this.paintArrow(arrow, project);
     }
 
-    // The lumen as short strokes from far to near, each with a dark edge.
+    // The lumen as short strokes from far to near, each with a dark edge; of triangles, the outline.
     paintStill(project) {
       const { width, height } = this.canvas;
       this.still.width = width;
       this.still.height = height;
-      const pen = this.still.getContext("2d");
+      const pen = this.still.getContext("2d", BY_PROCESSOR);
+      if (this.mesh.sheet) {
+        pen.strokeStyle = parts.colours.edge;
+        outline(pen, this.mesh, project, 1.5, () => (pen.fillStyle = pen.strokeStyle = parts.colours.fill));
+        return;
+      }
       for (const { line, radius } of this.strokes(project)) {
         for (const [colour, width] of [[parts.colours.edge, 2 * radius], [parts.colours.fill, 2 * radius - 3]]) {
           pen.strokeStyle = colour;
@@ -143,5 +179,6 @@
     }
   }
 
+  parts.outline = outline;
   parts.FlatPainter = FlatPainter;
 })((window.magwireParts ??= {}));

@@ -121,7 +121,7 @@
   // are in the order of these groups. rings: x, y, z and radius there, how many corners are in the group,
   // how far the farthest is, and whether a branch begins.
   function surface({ positions, indices, rings }) {
-    const mesh = { positions, indices: Uint32Array.from(indices), rings: [] };
+    const mesh = { positions, indices: Uint32Array.from(indices), rings: [], sheet: true };
     for (let k = 0, first = 0; k < rings.length; k += 7) {
       const [x, y, z, radius, count, far, begins] = rings.subarray(k, k + 7);
       mesh.rings.push({ centre: [x, y, z], radius, far, first, count, begins: begins > 0 });
@@ -140,6 +140,35 @@
     }
     mesh.areas = areas(mesh);
     return mesh;
+  }
+
+  // A wall that moves with the tissue as magwire.contact.motion says: moves the mesh to where it is at a time.
+  class Moving {
+    constructor(mesh, motions, entrance) {
+      const rest = mesh.positions;
+      mesh.positions = rest.slice();
+      const centres = mesh.rings.map(({ centre }) => centre);
+      const rises = ({ ramp }, points) => points.map((point) => {
+        const s = Math.min(1, norm(sub(point, entrance)) / ramp);
+        return s * s * s * (10 - 15 * s + 6 * s * s);
+      });
+      const corners = Array.from({ length: rest.length / 3 }, (_, v) => at(rest, v));
+      Object.assign(this, { mesh, rest, centres });
+      this.motions = motions.map((motion) => ({ ...motion, corners: rises(motion, corners), rings: rises(motion, centres) }));
+    }
+
+    to(time) {
+      const { mesh, rest, centres } = this;
+      mesh.positions.set(rest);
+      mesh.rings.forEach((ring, k) => (ring.centre = centres[k]));
+      for (const { amplitude, period, corners, rings } of this.motions) {
+        const by = scale(amplitude, Math.sin((Math.PI * time) / period) ** 2);
+        corners.forEach((rise, v) => {
+          for (let i = 0; i < 3; i++) mesh.positions[3 * v + i] += rise * by[i];
+        });
+        mesh.rings.forEach((ring, k) => (ring.centre = add(ring.centre, scale(by, rings[k]))));
+      }
+    }
   }
 
   // A third of the triangles around each corner [m^2].
@@ -240,5 +269,5 @@
     }
   }
 
-  parts.geometry = { wall, surface, pressure, Solid, tangents };
+  parts.geometry = { wall, surface, Moving, pressure, Solid, tangents };
 })((window.magwireParts ??= {}));

@@ -61,7 +61,7 @@
           const points = run.points(k);
           for (let v = 0; v < points.length; v += 3) path.push([points[v], points[v + 1], points[v + 2]]);
         }
-      scene.setWorld({ branches: run.branches, wire: run.wire, path, surface: run.surface });
+      scene.setWorld({ branches: run.branches, wire: run.wire, path, surface: run.surface, motions: run.motions });
       scene.afterwards = () => this.decorate(scene, bar, axes);
       return { run, scene, readings };
     }
@@ -75,7 +75,10 @@
         for (let k = 0; k < field.length; k += 3) largest.field = Math.max(largest.field, Math.hypot(field[k], field[k + 1], field[k + 2]));
         const every = Math.max(1, Math.floor(run.count / SAMPLES));
         for (let k = run.count - 1; k >= 0; k -= every)
-          if (wall[k] > 0) for (const value of scene.pressureOf(run.points(k), run.forces(k))) largest.pressure = Math.max(largest.pressure, value);
+          if (wall[k] > 0) {
+            scene.move(run.arrays.time[k]);
+            for (const value of scene.pressureOf(run.points(k), run.forces(k))) largest.pressure = Math.max(largest.pressure, value);
+          }
       }
       this.views.forEach(({ scene }) => scene.setScales(largest));
       this.largest = largest;
@@ -168,7 +171,7 @@
       this.records = this.runs.map((run) => nearest(run.arrays.time, this.time));
       this.views.forEach(({ run, scene, readings }, which) => {
         const k = this.records[which];
-        scene.show({ points: run.points(k), forces: run.forces(k), field: run.field(k) });
+        scene.show({ points: run.points(k), forces: run.forces(k), field: run.field(k), time: run.arrays.time[k] });
         const [fed, strength] = [1e3 * run.arrays.feed[k], 1e3 * Math.hypot(...run.field(k))];
         readings.textContent = `inserted ${fed.toFixed(1)} mm   field ${strength.toFixed(1)} mT${run.arrays.stable[k] > 0 ? "" : "   unstable"}`;
       });
@@ -212,6 +215,7 @@
       record: (run = 0) => player.records[run],
       points: (run = 0) => [...player.views[run].scene.state.points],
       forces: (run = 0) => [...player.views[run].scene.state.forces],
+      wall: (run = 0) => [...player.views[run].scene.mesh.positions],
       pressed: (run = 0) => {
         const { scene } = player.views[run];
         const pressure = scene.pressureOf(scene.state.points, scene.state.forces);

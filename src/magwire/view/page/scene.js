@@ -10,45 +10,54 @@
   const FORCE_ARROW = 2.4; // that of the largest force, over the radius of the lumen
   const GUIDE = 0.22; // length of the guide that is seen before the entrance, over the size
   const LEAST = 2e-3; // of the largest force: smaller ones have no arrow
+  // Ways to paint, each quicker than the one before it; finest: pixels of the canvas over those of the page, at most.
+  const WAYS = [
+    { made: (canvas, quick) => new parts.WebglPainter(canvas, { quick }), finest: 2 },
+    { made: (canvas, quick) => new parts.WebglPainter(canvas, { quick, antialias: false }), finest: 1 },
+    { made: (canvas) => new parts.FlatPainter(canvas), finest: 1.5 },
+  ];
 
   class Scene {
-    // holder: the element that is filled; camera: may be shared with other scenes.
-    constructor(holder, camera) {
+    // holder: the element that is filled; camera: may be shared with other scenes; quick: whether plain strokes
+    // are better than shaded pictures without a graphics processor.
+    constructor(holder, camera, quick = false) {
       this.holder = holder;
       this.camera = camera;
       this.follow = false; // whether the tip stays in the middle
       this.shift = [0, 0, 0]; // from the camera's target to this scene's: scenes may share a camera
-      this.start();
+      this.start(0, quick);
       camera.watchers.push(() => this.draw());
       new ResizeObserver(() => this.resize()).observe(holder);
     }
 
-    start(Painter = parts.WebglPainter) {
-      this.canvas?.remove();
-      this.canvas = document.createElement("canvas");
-      this.holder.prepend(this.canvas);
+    start(way, quick) {
+      const canvas = document.createElement("canvas");
       try {
-        this.painter = new Painter(this.canvas);
+        this.painter = WAYS[way].made(canvas, quick);
       } catch {
-        this.start(parts.FlatPainter);
+        this.start(WAYS.length - 1, quick);
         return;
       }
-      this.camera.attach(this.canvas);
-      this.canvas.addEventListener("webglcontextlost", () => this.flatten());
+      this.canvas?.remove();
+      [this.canvas, this.way] = [canvas, way];
+      this.holder.prepend(canvas);
+      this.camera.attach(canvas);
+      canvas.addEventListener("webglcontextlost", () => canvas === this.canvas && this.repaint(WAYS.length - 1));
     }
 
-    // Go on with plain strokes.
-    flatten() {
-      this.start(parts.FlatPainter);
+    // Go on in another way, with the next picture there before the last one is gone.
+    repaint(way, quick = false) {
+      this.start(way, quick);
       this.painter.setWall(this.mesh);
       this.resize();
       this.refresh();
     }
 
-    // Wait until the picture is drawn.
-    finish() {
-      const { gl } = this.painter;
-      gl?.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    // Go on in a quicker way; whether there is one.
+    hurry() {
+      if (this.way + 1 === WAYS.length) return false;
+      this.repaint(this.way + 1, true);
+      return true;
     }
 
     get mode() {
@@ -57,8 +66,8 @@
 
     // branches: [{points: [[x, y, z], ...], radii}]; wire: {radius, onAxis, magnet: [flags]}, where onAxis
     // says that the wall holds the wire's centreline; path: all there is to see in open space [m]; surface:
-    // the wall's corners, triangles and rings, where it is not of balls.
-    setWorld({ branches, wire, path, surface }) {
+    // the wall's corners, triangles and rings, where it is not of balls; motions: of the wall, if it moves.
+    setWorld({ branches, wire, path, surface, motions = [] }) {
       this.wire = wire;
       this.branches = branches;
       this.mesh = surface ? parts.geometry.surface(surface) : parts.geometry.wall(branches);
@@ -72,6 +81,7 @@
       const high = [0, 1, 2].map((k) => Math.max(...points.map((point, i) => point[k] + radii[i])));
       this.size = norm(sub(high, low));
       this.entrance = points[0];
+      if (motions.length) this.moving = new parts.geometry.Moving(this.mesh, motions, this.entrance);
       this.inwards = unit(sub(points[Math.min(1, points.length - 1)], points[0]));
     }
 
@@ -80,14 +90,22 @@
       this.scales = { force, field, pressure };
     }
 
+    // Have the wall be where it is at a time.
+    move(time) {
+      if (!this.moving) return;
+      this.moving.to(time);
+      this.painter.moveWall(this.mesh);
+    }
+
     pressureOf(points, forces) {
       const skin = this.wire.onAxis ? 0 : this.wire.radius;
       return parts.geometry.pressure(this.mesh, points, forces, { skin, spread: SPREAD });
     }
 
     // points, forces: flat arrays of three for each node [m, N]; field: [x, y, z] at the tip [T]; suggested:
-    // what it should be, if anybody says.
-    show({ points, forces, field, suggested = null }) {
+    // what it should be, if anybody says; time [s].
+    show({ points, forces, field, time, suggested = null }) {
+      this.move(time);
       this.state = { points, forces, field, suggested };
       this.refresh();
     }
@@ -182,7 +200,7 @@
     }
 
     resize() {
-      const ratio = Math.min(window.devicePixelRatio || 1, 2);
+      const ratio = Math.min(window.devicePixelRatio || 1, WAYS[this.way].finest);
       const [width, height] = [this.holder.clientWidth, this.holder.clientHeight].map((x) => Math.max(1, Math.round(x * ratio)));
       if (this.canvas.width !== width || this.canvas.height !== height) {
         this.canvas.width = width;

@@ -65,11 +65,17 @@
     return { made, place: (name) => gl.getUniformLocation(made, name) };
   }
 
+  function bySoftware(gl) {
+    const names = gl.getExtension("WEBGL_debug_renderer_info");
+    return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+  }
+
   class WebglPainter {
-    // Throws where there is no WebGL 2.
-    constructor(canvas) {
-      this.gl = canvas.getContext("webgl2", { antialias: true, premultipliedAlpha: true, preserveDrawingBuffer: true });
+    // quick: whether it must be by a graphics processor. Throws where there is no such WebGL 2.
+    constructor(canvas, { antialias = true, quick = false } = {}) {
+      this.gl = canvas.getContext("webgl2", { antialias, premultipliedAlpha: true, preserveDrawingBuffer: true });
       if (!this.gl) throw new Error("no WebGL 2");
+      if (quick && bySoftware(this.gl)) throw new Error("no graphics processor");
       this.canvas = canvas;
       this.mode = "webgl2";
       const gl = this.gl;
@@ -111,6 +117,11 @@
       this.fill("wallNormal", mesh.normals);
       this.fill("wallIndex", mesh.indices, this.gl.ELEMENT_ARRAY_BUFFER);
       this.count = mesh.indices.length;
+    }
+
+    // The same wall elsewhere.
+    moveWall(mesh) {
+      this.fill("wall", mesh.positions);
     }
 
     // What moves: the pressure over the largest one, tubes, arrows.
