@@ -19,6 +19,7 @@ from scipy.spatial import KDTree
 from magwire.errors import InputError
 from magwire.kernels.wall.gap import gap_jet, gap_value, work_many
 from magwire.lumen import Branch, Lumen
+from magwire.lumen.curve import Curve
 
 from .trees import LINES, RADIUS, angled, junctions, shared
 from .tubes import around
@@ -394,3 +395,43 @@ def test_paths_belong_to_the_lumen() -> None:
     with pytest.raises(TypeError):
         paths["left"] = paths["right"]  # type: ignore[index]
     assert replace(TREES["shared"], target="right").length == paths["right"].length
+
+
+def test_the_work_of_a_tree_grows_with_its_branches(monkeypatch: pytest.MonkeyPatch) -> None:
+    def comb(count: int) -> dict[str, Lumen]:
+        """A straight tube, and others that leave it to both sides."""
+        places = 6e-3 * np.arange(1, count + 1)
+        tubes = {"trunk": Lumen.straight(float(places[-1]) + 6e-3, 2e-3)}
+        for number, (x, side) in enumerate(zip(places, np.resize([1.0, -1.0], count), strict=True)):
+            line = [[x, 0.0, 0.0], [x + 4e-3, side * 8e-3, 0.0], [x + 8e-3, side * 16e-3, 2e-3]]
+            tubes[f"side-{number}"] = Lumen.through(line, 1e-3)
+        return tubes
+
+    looked_at = 0
+    at = Curve.at
+
+    def counted(curve: Curve, s: Array, derivative: int = 0) -> Array:
+        nonlocal looked_at
+        looked_at += len(s)
+        return at(curve, s, derivative)
+
+    monkeypatch.setattr(Curve, "at", counted)
+    work = []
+    for count in (10, 40):
+        tubes = comb(count)
+        looked_at = 0
+        tree = Lumen.tree(tubes)
+        work.append(looked_at)
+    assert work[1] < 4.8 * work[0]
+    assert tree.path("side-30").length == pytest.approx(31 * 6e-3 + 18e-3, rel=0.02)
+
+
+def test_a_chain_of_tubes_has_paths_through_all_before_them() -> None:
+    begin, tubes = np.zeros(3), {"0": Lumen.straight(0.04, 2e-3)}
+    for number in range(1, 6):
+        begin = begin + 0.02 * np.array([1.0, 0.0, 0.0] if number % 2 else [0.8, 0.6, 0.0])
+        ahead = 0.04 * np.array([0.8, 0.6, 0.0] if number % 2 else [1.0, 0.0, 0.0])
+        tubes[str(number)] = Lumen.through([begin, begin + ahead], 2e-3 * 0.9**number)
+    tree = Lumen.tree(tubes)
+    assert [tree.path(str(k)).length for k in (5, 2)] == pytest.approx([0.14, 0.08], rel=0.02)
+    np.testing.assert_allclose(tree.path("5").entrance, 0.0, atol=1e-12)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
 from math import ceil, degrees, tan
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from magwire.errors import InputError
 from magwire.lumen.branch import Branch
 from magwire.lumen.curve import Curve
+from magwire.lumen.lazy import Lazy
 
 if TYPE_CHECKING:
     from scipy.spatial import KDTree
@@ -31,6 +32,8 @@ MOUTH = 1.5  # how far from the entrance a branch leaves that has a wall of its 
 OFF_AXIS = 0.5  # farthest from its parent's centreline that a branch starts, over the radius
 BESIDE = 1.0  # how far an outlet is off the centreline of another tube, at least, over its radius
 DENSITY = 8.0  # samples per radius of arc length
+AT_ONCE = 64  # samples that are followed along another centreline at first
+AROUND = 8.0  # how far around a corner a path is made to see whether it can be, over the radii
 SPARSE = 4  # of these samples, how many there are for one that is checked
 
 
@@ -112,15 +115,14 @@ def join(lines: Mapping[str, Branch], width: float | None) -> Tree:
         Width over which branches blend [m]; if None, by the radius at each junction.
     """
     names = list(lines)
-    first = lines[names[0]]
-    walls, paths = Walls(), {names[0]: first}
-    walls.add(names[0], first)
+    tubes = _Tubes({name: _Trace(name, line.curve) for name, line in lines.items()}, lines, {})
+    walls = Walls()
+    walls.add(names[0], lines[names[0]])
+    tubes.paths[names[0]] = lines[names[0]]
     for name in names[1:]:
-        wall, path = _attach(name, lines[name], walls, paths, width)
-        walls.add(name, wall)
-        paths[name] = path
+        walls.add(name, _attach(name, tubes, walls, width))
     check_courses(walls)
-    return Tree(tuple(walls.branches), paths)
+    return Tree(tuple(walls.branches), Lazy({name: partial(tubes.path, name) for name in names}))
 
 
 class Walls:
@@ -150,26 +152,61 @@ class Walls:
         return [self.traces[i] for i in touching.tolist()]
 
 
-def _attach(
-    name: str, line: Branch, walls: Walls, paths: dict[str, Branch], width: float | None
-) -> tuple[Branch, Branch]:
-    """Wall and path of one more branch."""
-    ways = [_Trace(other, path.curve) for other, path in paths.items()]
-    first = next(iter(paths.values()))
+@dataclass(frozen=True, eq=False)
+class _Tubes:
+    """The tubes of a tree as they are given, and the paths to their ends as far as they are made.
+
+    A path is as long as all that it goes through: of many tubes none is made before it is needed.
+
+    Attributes
+    ----------
+    axes, lines
+        Centrelines, and the tubes, by name.
+    paths
+        Paths by name. It has those of the tubes that start at the entrance from the start.
+    leaving
+        What each of the others leaves.
+    """
+
+    axes: Mapping[str, _Trace]
+    lines: Mapping[str, Branch]
+    paths: dict[str, Branch]
+    leaving: dict[str, str] = field(default_factory=dict)
+
+    def path(self, name: str) -> Branch:
+        """The path from the entrance to the end of a tube."""
+        wanted = [name]
+        while wanted[-1] not in self.paths:
+            wanted.append(self.leaving[wanted[-1]])
+        for made in wanted[-2::-1]:
+            parent = self.leaving[made]
+            way = _Trace(parent, self.paths[parent].curve)
+            self.paths[made] = _path(made, self.lines[made], way, None)
+        return self.paths[name]
+
+
+def _attach(name: str, tubes: _Tubes, walls: Walls, width: float | None) -> Branch:
+    """The wall of one more branch."""
+    line = tubes.lines[name]
+    first = walls.branches[0]
     near = SHARED * float(first.radius[0])
+    arcs = sampled(line.curve)
     if np.linalg.norm(line.entrance - first.entrance) <= near:
-        start = leaves(name, line, ways)
+        tubes.paths[name] = line
+        start = _leaves(name, line, tubes.axes, walls)
         if start < MOUTH * float(line.radius[0]):  # its cap would stand in the entrance
-            return replace(
-                line, blend=BLEND * float(line.radius[0]) if width is None else width
-            ), line
-        path, arcs = line, sampled(line.curve)
+            return replace(line, blend=BLEND * float(line.radius[0]) if width is None else width)
         arcs = np.append(start, arcs[arcs > start + 0.5 * arcs[1]])
     else:
-        path, arcs = _path(name, line, ways, paths), sampled(line.curve)
+        way, arc = _parent(name, line.entrance, tubes.axes, walls)
+        tubes.leaving[name] = way.name
+        around = AROUND * float(line.radius[0] + way.curve.at(np.array([arc]))[0, 3])
+        if way.name not in tubes.paths and arc < around:  # the corner may be that of its parent
+            way = _Trace(way.name, tubes.path(way.name).curve)
+        _path(name, line, way, around)
     tangents = line.curve.at(arcs[[0, -1]], 1)[:, :3]
     own = Line(arcs - arcs[0], line.curve.at(arcs), tangents, line.open_end)
-    return grown(name, own, walls, width), path
+    return grown(name, own, walls, width)
 
 
 class Line(NamedTuple):
@@ -220,41 +257,62 @@ def grown(name: str, line: Line, walls: Walls, width: float | None) -> Branch:
     )
 
 
-def leaves(name: str, line: Branch, ways: list[_Trace]) -> float:
-    """Arc parameter where a tube leaves the ones before it, on which it starts [m]."""
+def _leaves(name: str, line: Branch, axes: Mapping[str, _Trace], walls: Walls) -> float:
+    """Arc parameter where a tube leaves the ones before it, on which it starts [m].
+
+    It is followed along one of them until it leaves that one, and from there along the next.
+    """
     arcs = sampled(line.curve)
     points = line.curve.at(arcs)[:, :3]
-    apart = np.full(len(arcs), np.inf)
-    for way in ways:
-        distance, _, radius = way.nearest(points)
-        apart = np.minimum(apart, distance / radius)
-    away = np.flatnonzero(apart > SHARED)
-    if len(away) == 0:
-        raise refusal(f"'{name}' runs along '{ways[0].name}' to its end")
-    return float(arcs[max(int(away[0]) - 1, 0)])
+    along, here, count = walls.traces[0].name, 0, AT_ONCE
+    while here < len(arcs):
+        piece = points[here : here + count]
+        distance, _, radius = axes[along].nearest(piece)
+        away = np.flatnonzero(distance > SHARED * radius)
+        if len(away) == 0:
+            here, count = here + len(piece), 2 * count
+            continue
+        here, count = here + int(away[0]), AT_ONCE
+        for other in walls.near(points[here : here + 1], 0.0):
+            distance, _, radius = axes[other.name].nearest(points[here : here + 1])
+            if distance[0] <= SHARED * radius[0]:
+                along = other.name
+                break
+        else:
+            return float(arcs[max(here - 1, 0)])
+    raise refusal(f"'{name}' runs along '{along}' to its end")
 
 
-def _path(name: str, line: Branch, ways: list[_Trace], paths: dict[str, Branch]) -> Branch:
+def _path(name: str, line: Branch, way: _Trace, around: float | None) -> Branch:
     """Centreline from the entrance into a tube that starts in one before it.
 
     Around the corner of the junction it leaves both lines, to turn as gently as the parent is
     wide; past the parent's wall it is on the tube's axis again.
+
+    Parameters
+    ----------
+    name, line, way
+        The tube, and the path on which it starts.
+    around
+        How much of both is wanted past the corner [m]; if None, all.
     """
-    way, arc, off = _parent(name, line.entrance, ways)
-    parent = paths[way.name].curve
-    _check_width(name, float(line.radius[0]), float(parent.at(np.array([arc]))[0, 3]))
+    parent = way.curve
+    off, arc, _ = (float(values[0]) for values in way.nearest(line.entrance[None]))
     centre, ahead = parent.at(np.array([arc]))[0], parent.at(np.array([arc]), 1)[0, :3]
+    _check_width(name, float(line.radius[0]), float(centre[3]))
     turn = float(np.arccos(np.clip(ahead @ line.direction / np.linalg.norm(ahead), -1.0, 1.0)))
     wanted = max(ROUNDING * centre[3] * tan(0.5 * min(turn, 2.0)), 2.0 * off)
     cut = min(wanted, centre[3] + line.radius[0], 0.5 * line.length)
     cut = max(cut, 0.5 * sampled(line.curve)[1])
     if cut >= arc:
         raise refusal(f"'{name}' leaves '{way.name}' too close to the entrance")
-    before, after = sampled(parent), sampled(line.curve)
+    before, after = way.arcs, sampled(line.curve)
     before = np.append(before[before < arc - 1.1 * cut], arc - cut)
     after = np.append(cut, after[after > 1.1 * cut])
+    if around is not None:
+        before, after = before[before > arc - cut - around], after[after < cut + around]
     balls = _turn(parent.at(before), line.curve.at(after), (parent, arc - cut), (line.curve, cut))
-    tangents = parent.at(np.zeros(1), 1)[0, :3], line.curve.at(np.array([line.length]), 1)[0, :3]
+    tangents = parent.at(before[:1], 1)[0, :3], line.curve.at(after[-1:], 1)[0, :3]
     try:
         return Branch(balls[:, :3], balls[:, 3], begin_tangent=tangents[0], end_tangent=tangents[1])
     except InputError:
@@ -263,20 +321,29 @@ def _path(name: str, line: Branch, ways: list[_Trace], paths: dict[str, Branch])
         ) from None
 
 
-def _parent(name: str, start: Array, ways: list[_Trace]) -> tuple[_Trace, float, float]:
-    """The path that a tube starts on, the arc parameter there and the distance from it [m]."""
-    found = [way.nearest(start[None]) for way in ways]
-    closest = int(np.argmin([distance[0] for distance, _, _ in found]))
-    distance, arc, radius = (float(values[0]) for values in found[closest])
-    if distance > OFF_AXIS * radius:
-        x, y, z = start
-        raise InputError(
-            "Input branches of Lumen.tree must start at the entrance or within half a radius of "
-            f"the centreline of one before them; received '{name}', which starts at "
-            f"({x:.6g}, {y:.6g}, {z:.6g}) m, {distance:.6g} m from the centreline of "
-            f"'{ways[closest].name}' with radius {radius:.6g} m."
-        )
-    return ways[closest], arc, distance
+def _parent(
+    name: str, start: Array, axes: Mapping[str, _Trace], walls: Walls
+) -> tuple[_Trace, float]:
+    """The tube on whose centreline another one starts, and the arc parameter there [m].
+
+    Of several whose centrelines are one there it is the first.
+    """
+    near = [axes[trace.name] for trace in walls.near(start[None], 0.0)]
+    for ways in (near, [axes[trace.name] for trace in walls.traces]):
+        found = [tuple(float(v[0]) for v in way.nearest(start[None])) for way in ways]
+        least = min((distance for distance, _, _ in found), default=np.inf)
+        for way, (distance, arc, radius) in zip(ways, found, strict=True):
+            if distance <= min(least + SHARED * radius, OFF_AXIS * radius):
+                return way, arc
+    closest = int(np.argmin([distance for distance, _, _ in found]))
+    distance, _, radius = found[closest]
+    x, y, z = start
+    raise InputError(
+        "Input branches of Lumen.tree must start at the entrance or within half a radius of "
+        f"the centreline of one before them; received '{name}', which starts at "
+        f"({x:.6g}, {y:.6g}, {z:.6g}) m, {distance:.6g} m from the centreline of "
+        f"'{ways[closest].name}' with radius {radius:.6g} m."
+    )
 
 
 def _turn(
