@@ -396,6 +396,7 @@ class Simulation:
             motion=motion,
             inputs=self.system.input_names,
             resistances=self.system.resistances,
+            wall_motion=tuple(one.numbers for one in self.system.wall_motion),
         )
         sheet = self.system.lumen.sheet
         if sheet is None:

@@ -71,6 +71,12 @@ class WallMotion:
         """Largest strain of the tissue."""
         return STEEPEST * float(np.linalg.norm(np.asarray(self.amplitude))) / self.ramp
 
+    @property
+    def numbers(self) -> tuple[float, float, float, float, float]:
+        """Amplitude [m], period [s] and ramp [m], as a result file has them."""
+        x, y, z = np.asarray(self.amplitude).tolist()
+        return x, y, z, float(self.period), float(self.ramp)
+
     def at(self, points: ArrayLike, entrance: ArrayLike, time: float) -> Array:
         """Displacement of the tissue that is at some points at a time.
 

@@ -69,6 +69,8 @@ class RunInfo:
     surface
         Corners, shape (n, 3) [m], and triangles, shape (m, 3), of a wall that is a surface; none of
         a wall of balls.
+    wall_motion
+        How the wall moves: amplitude, period and ramp of each displacement, shape (k, 5) [m, s, m].
     """
 
     nodes: int
@@ -88,6 +90,7 @@ class RunInfo:
         np.zeros((0, 3)),
         np.zeros((0, 3), dtype=np.int64),
     )
+    wall_motion: tuple[tuple[float, ...], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -173,6 +176,9 @@ class Record:
     tip_departure
         Distance of the tip from where the navigator's model has it, the largest since the record
         before [m]; NaN if nobody compared.
+    insertion_force
+        Force that feeds the wire through the guide [N]: the push, less what the bend at the guide's
+        mouth squeezes out by itself (P-38).
     """
 
     time: float
@@ -201,3 +207,4 @@ class Record:
     stable: bool
     totals: Totals = field(default_factory=Totals)
     tip_departure: float = float("nan")
+    insertion_force: float = float("nan")

@@ -170,6 +170,12 @@ VARIABLES: dict[str, Variable] = {
     "push_force": Variable(
         ("time",), "N", "force of the guide on the wire, along the guide", lambda r, _: r.push_force
     ),
+    "insertion_force": Variable(
+        ("time",),
+        "N",
+        "force that feeds the wire through the guide: push less what the bend at its mouth does",
+        lambda r, _: r.insertion_force,
+    ),
     "guide_torque": Variable(
         ("time",),
         "N m",
@@ -358,11 +364,17 @@ def opening_attributes(info: RunInfo, layout: Layout, version: str) -> dict[str,
         "input_units": " ".join(unit for _, unit in info.inputs),
         **({"input_resistances": " ".join(map(repr, info.resistances))} if heated else {}),
         **({"hardware": info.hardware} if info.hardware else {}),
+        **({"wall_motion": _rows(info.wall_motion)} if info.wall_motion else {}),
         "length_scale": float(info.scales.length),
         "force_scale": float(info.scales.force),
         "field_scale": float(info.scales.flux_density),
         **force_attributes(layout),
     }
+
+
+def _rows(numbers: tuple[tuple[float, ...], ...]) -> str:
+    """Rows of numbers as a text."""
+    return "; ".join(" ".join(map(repr, row)) for row in numbers)
 
 
 def running_attributes(record: Record | None) -> dict[str, Any]:
