@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import minimize
+from scipy.linalg import solveh_banded
 
 Array = NDArray[np.float64]
+
+MOST = 2000  # Newton steps
+EXACT = 1e-10  # torque left over, in springs' torques per radian
+FARTHEST = 0.3  # turn in one step [rad]: it goes down into the nearest well
+HALVINGS = 40
 
 
 def whipped(
@@ -45,30 +52,63 @@ def whipped(
     step = length / (count - 1)
     share = np.full(count, step)
     share[-1] = 0.5 * step
-    spring, wells, rubs = twisting / step, (share * hold)[1:], (share * drag)[1:]
-    unit = twisting / length
-
-    def energy(free: Array, first: float) -> tuple[float, Array]:
-        angle = np.concatenate(([first], free))
-        twist = np.diff(angle)
-        torque = spring * twist
-        slope = torque.copy()
-        slope[:-1] -= torque[1:]
-        slope += wells * np.sin(free) + rubs
-        value = 0.5 * float(torque @ twist) + float(wells @ (1.0 - np.cos(free)) + rubs @ free)
-        return value / unit, slope / unit
-
+    chain = Chain(twisting / step, (share * hold)[1:], (share * drag)[1:])
     angle, ends = np.zeros(count - 1), []
     for first in np.asarray(guide, dtype=np.float64):
-        found = minimize(
-            energy,
-            angle,
-            args=(float(first),),
-            jac=True,
-            method="L-BFGS-B",
-            bounds=[(low, None) for low in angle],
-            options={"maxiter": 20_000, "maxfun": 40_000, "ftol": 1e-15, "gtol": 1e-7},
-        )
-        angle = found.x
+        angle = _settled(chain, angle, float(first))
         ends.append(float(angle[-1]))
     return np.array(ends)
+
+
+class Chain(NamedTuple):
+    """Springs between neighbours, wells and rubs on each: torques [N m]."""
+
+    spring: float
+    wells: Array
+    rubs: Array
+
+    def energy(self, angle: Array, first: float) -> float:
+        """With what friction takes from angle 0 on [J]."""
+        twist = np.diff(angle, prepend=first)
+        held = float(self.wells @ (1.0 - np.cos(angle)) + self.rubs @ angle)
+        return 0.5 * self.spring * float(twist @ twist) + held
+
+    def slope(self, angle: Array, first: float) -> Array:
+        """Its derivative."""
+        torque = self.spring * np.diff(angle, prepend=first)
+        result: Array = torque - np.append(torque[1:], 0.0) + self.wells * np.sin(angle)
+        return result + self.rubs
+
+
+def _settled(chain: Chain, low: Array, first: float) -> Array:
+    """The minimum near where the wire was, of which no part turns back: Newton, projected."""
+    angle = low.copy()
+    stiff = np.full(len(low), 2.0 * chain.spring)
+    stiff[-1] = chain.spring
+    energy = chain.energy(angle, first)
+    for _ in range(MOST):
+        slope = chain.slope(angle, first)
+        free = (angle > low) | (slope < 0.0)
+        if float(np.abs(slope[free]).max(initial=0.0)) < EXACT * chain.spring:
+            return angle
+        both = free[1:] & free[:-1]
+        band = np.zeros((2, len(low)))
+        band[0, 1:] = np.where(both, -chain.spring, 0.0)
+        curved = stiff + chain.wells * np.cos(angle)
+        shift = 0.0
+        while True:
+            band[1] = np.where(free, curved + shift, 1.0)
+            try:
+                way = -solveh_banded(band, np.where(free, slope, 0.0))
+                break
+            except np.linalg.LinAlgError:
+                shift = max(2.0 * shift, 1e-4 * chain.spring)
+        part = min(1.0, FARTHEST / float(np.abs(way).max()))
+        for _ in range(HALVINGS):
+            there = np.maximum(angle + part * way, low)
+            lower = chain.energy(there, first)
+            if lower <= energy + 1e-4 * float(slope @ (there - angle)) + 1e-15 * chain.spring:
+                break
+            part *= 0.5
+        angle, energy = there, lower
+    raise RuntimeError(f"The wire did not come to rest for the guide at {first:g} rad.")
