@@ -36,3 +36,9 @@ def moved(data: xr.Dataset, points: Array, time: float | None) -> Array:
         there = rest + np.sum([one.at(there, entrance, time) for one in displacements], axis=0)
     result: Array = 1e3 * there
     return result
+
+
+def reach(data: xr.Dataset) -> tuple[Array, Array]:
+    """How far the wall goes towards lower and towards higher coordinates, shapes (3,) [mm]."""
+    ways = np.array([np.zeros(3), *(1e3 * np.asarray(one.amplitude) for one in motions(data))])
+    return np.minimum(ways, 0.0).sum(axis=0), np.maximum(ways, 0.0).sum(axis=0)

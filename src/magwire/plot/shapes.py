@@ -335,7 +335,8 @@ def window(data: xr.Dataset) -> tuple[Array, Array]:
     margin = 0.03 * size
     start, after = parts[0].points[:2]
     guide = start - (after - start) / np.linalg.norm(after - start) * GUIDE * size
-    return np.minimum(low - margin, guide), np.maximum(high + margin, guide)
+    back, forth = moving.reach(data)
+    return np.minimum(low + back - margin, guide), np.maximum(high + forth + margin, guide)
 
 
 def _tangents(points: Array) -> Array:
