@@ -96,8 +96,6 @@ class Cells:
                 owner.append(i)
                 ends.append(cut)
         self.owner, self.ends = np.array(owner), np.array(ends)
-        which = np.searchsorted(self.ends, self.station, side="left") - 1
-        self.which = np.clip(which, 0, len(self.pieces) - 1)
 
     @staticmethod
     def _inside(section: Section, marks: Array, first: float, last: float) -> Array:
@@ -154,12 +152,22 @@ class Cells:
         return found / np.diff(self.bounds)[:, None]
 
     def radius(self) -> Array:
-        """Outer radius at each node [m]."""
-        pieces = [self.pieces[i] for i in self.which]
-        along = (self.station - self.ends[self.which]) / np.diff(self.ends)[self.which]
-        return np.array(
-            [p.radius * (1.0 + (p.ratio - 1.0) * x) for p, x in zip(pieces, along, strict=True)]
-        )
+        """Outer radius at each node [m]; the larger one where two sections meet at a node."""
+        near = 1e-9 * self.station[-1]
+        sides = [np.searchsorted(self.ends, self.station + off) - 1 for off in (-near, near)]
+        found: Array = np.zeros(len(self.station))
+        for side in sides:
+            which = np.clip(side, 0, len(self.pieces) - 1)
+            along = (self.station - self.ends[which]) / np.diff(self.ends)[which]
+            found = np.maximum(
+                found, [self._width(i, x) for i, x in zip(which, along, strict=True)]
+            )
+        return found
+
+    def _width(self, piece: int, part: float) -> float:
+        """Outer radius of a piece at a part of its length [m]."""
+        own = self.pieces[piece]
+        return own.radius * (1.0 + (own.ratio - 1.0) * min(max(part, 0.0), 1.0))
 
 
 def lay_out(wire: Wire) -> Mesh:

@@ -36,11 +36,11 @@ def whipped(
     guide
         Angles of the near end [rad], rising from 0, where wire and bend agree.
     length
-        Of the wire [m].
+        Length of the wire [m].
     twisting
-        GJ [N m^2].
+        Twisting stiffness GJ [N m^2].
     hold, drag
-        EI kappa kappa_0 and the torque of friction per length [N], shape (n,), at places that
+        Torques per length [N], EI kappa kappa_0 and that of friction, shape (n,), at places that
         divide the length evenly, the first one at the near end.
 
     Returns
