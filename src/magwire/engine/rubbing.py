@@ -135,7 +135,8 @@ class Rubbing:
     @cached_property
     def contacts(self) -> Contacts:
         """Those with a normal force and a cone."""
-        friction: Friction = self.plant.model[2].friction[0]
+        wall: Any = self.plant.model[2]
+        friction: Friction = wall.friction[0]
         state, tip = self.point.state, len(self.point.state.q) - 1
         push = self.walls[0]
         kept = state.contact

@@ -96,6 +96,7 @@ class Cells:
                 owner.append(i)
                 ends.append(cut)
         self.owner, self.ends = np.array(owner), np.array(ends)
+        self.which = self._widest()
 
     @staticmethod
     def _inside(section: Section, marks: Array, first: float, last: float) -> Array:
@@ -152,22 +153,27 @@ class Cells:
         return found / np.diff(self.bounds)[:, None]
 
     def radius(self) -> Array:
-        """Outer radius at each node [m]; the larger one where two sections meet at a node."""
-        near = 1e-9 * self.station[-1]
-        sides = [np.searchsorted(self.ends, self.station + off) - 1 for off in (-near, near)]
-        found: Array = np.zeros(len(self.station))
-        for side in sides:
-            which = np.clip(side, 0, len(self.pieces) - 1)
-            along = (self.station - self.ends[which]) / np.diff(self.ends)[which]
-            found = np.maximum(
-                found, [self._width(i, x) for i, x in zip(which, along, strict=True)]
-            )
-        return found
+        """Outer radius at each node [m]."""
+        return self._widths(self.which)
 
-    def _width(self, piece: int, part: float) -> float:
-        """Outer radius of a piece at a part of its length [m]."""
-        own = self.pieces[piece]
-        return own.radius * (1.0 + (own.ratio - 1.0) * min(max(part, 0.0), 1.0))
+    def _widest(self) -> NDArray[np.int64]:
+        """The piece that gives each node its radius: the wider one where two meet at a node."""
+        near = 1e-9 * self.station[-1]
+        before, after = (
+            np.clip(np.searchsorted(self.ends, self.station + off) - 1, 0, len(self.pieces) - 1)
+            for off in (-near, near)
+        )
+        wider = self._widths(after) > (1.0 + 1e-12) * self._widths(before)
+        result: NDArray[np.int64] = np.where(wider, after, before)
+        return result
+
+    def _widths(self, which: NDArray[np.int64]) -> Array:
+        """Outer radius of a piece for each node, where that is on it or at its end [m]."""
+        along = (self.station - self.ends[which]) / np.diff(self.ends)[which]
+        pieces = [self.pieces[i] for i in which]
+        return np.array(
+            [p.radius * (1.0 + (p.ratio - 1.0) * x) for p, x in zip(pieces, along, strict=True)]
+        )
 
 
 def lay_out(wire: Wire) -> Mesh:
