@@ -165,16 +165,15 @@ class Rubbing:
             on=np.linalg.norm(slip, axis=1) >= ON_CONE * limit,
         )
 
-    def friction(self, branches: Branches) -> tuple[Any, Array, Array]:
+    def friction(self, branches: Branches) -> tuple[Any, Array]:
         """What friction adds to the tangent of all unknowns; moves of the surfaces by these.
 
         Returns
         -------
         stiffness
             Not symmetric, sparse.
-        by_place, by_push
-            Derivatives of each contact's way, shape (k, 3, ``LOCAL``), and of its gradient by the
-            wall's push, shape (k, ``LOCAL``, 3).
+        by_place
+            Derivatives of each contact's way, shape (k, 3, ``LOCAL``).
         """
         from scipy.sparse import coo_array
 
@@ -194,7 +193,7 @@ class Rubbing:
         by_push = slope[:, :, LOCAL:]
         rows = np.repeat(where[:, :, None], 3, axis=2)
         loads = coo_array((by_push.ravel(), (rows.ravel(), pushed.ravel())), shape=shape)
-        return (own + loads.tocsr() @ self.walls[1]).tocsr(), way, by_push
+        return (own + loads.tocsr() @ self.walls[1]).tocsr(), way
 
     @cached_property
     def _unknowns(self) -> NDArray[np.int64]:
@@ -255,7 +254,7 @@ class Rubbing:
         unit = c.slip / np.maximum(np.linalg.norm(c.slip, axis=1), 1e-300)[:, None]
         normal = c.push / np.linalg.norm(c.push, axis=1)[:, None]
         for _ in range(TRIALS):
-            rubbed, way, _ = self.friction(branches)
+            rubbed, way = self.friction(branches)
             whole = (self.stiffness + rubbed).tocsc()
             moved = lead.copy()
             right = -load[free] - (rubbed @ lead)[free]
