@@ -177,7 +177,7 @@ def works(session: Session, course: Array) -> Works:
         before = record
         session.step(feed_speed=feed / dt, twist_rate=twist / dt)
         record = session.record()
-        guide += 0.5 * (before.push_force + record.push_force) * feed
+        guide += 0.5 * (before.insertion_force + record.insertion_force) * feed
         guide += 0.5 * (before.guide_torque + record.guide_torque) * twist
         rubs = np.linalg.norm(record.friction_force, axis=1)
         summed += float(rubs @ (record.slip - before.slip))

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from types import TracebackType
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Self, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,8 +15,10 @@ from magwire.engine.command import Command, Drive
 from magwire.engine.observation import Observation
 from magwire.engine.plant import Plant, Snapshot
 from magwire.engine.record import Record
+from magwire.engine.rubbing import Change, Course, goes_on
+from magwire.engine.sensitivity import Output
 from magwire.engine.status import Status
-from magwire.errors import ConvergenceError, InputError, array, positive
+from magwire.errors import ConvergenceError, InputError, array, one_of, positive
 from magwire.operate import Assist
 from magwire.status import RunStatus
 
@@ -212,6 +214,50 @@ class Session:
     def stable(self) -> bool:
         """Whether a wire would stay where it is: its tangent stiffness is positive definite."""
         return self.plant.stable
+
+    def sensitivity(self, output: Output, *, wrt: Course, change: Change = "rising") -> Array:
+        """How the wire at rest moves with an input from here on, to first order, under friction.
+
+        Contacts inside their cones hold as springs; those on their cones slide on, or stick if the
+        change would turn them back. So it is a derivative from one side.
+
+        Parameters
+        ----------
+        output
+            ``"tip"``, shape (3,) [m]; ``"positions"``, shape (nodes, 3) [m]; or
+            ``"tip_direction"``, shape (3,).
+        wrt
+            ``"field"``, shape (3,) [T]; ``"inputs"`` of the actuator, shape (m,); ``"gradient"``,
+            shape (3, 3) [T/m]; ``"feed"`` [m]; or ``"twist"`` [rad]. Each component with the others
+            as they are.
+        change
+            Whether the input is ``"rising"`` or ``"falling"``.
+
+        Returns
+        -------
+        array
+            Shape of the output followed by the shape of the input.
+
+        Raises
+        ------
+        InputError
+            If output, input or change is none of these, the wall moves, or the
+            session is one in time: a wire that moves is not at rest.
+        ConvergenceError
+            If no choice of which contacts slide agrees with itself.
+
+        Notes
+        -----
+        (P-33): the coefficients of friction are taken as they are where the wire is.
+        """
+        one_of("sensitivity", "wrt", wrt, get_args(Course))
+        one_of("sensitivity", "change", change, get_args(Change))
+        if self._inertia:
+            raise InputError(
+                "Input motion of Simulation.session must be 'quasi-static' for sensitivities; "
+                "received 'dynamic'."
+            )
+        return goes_on(self.plant, output, wrt, change)
 
     def record(self) -> Record:
         """The whole state, as a result file has it."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from lagging import buckled, whip
 from magwire.contact import Barrier, Friction
 from magwire.engine.feed import Feed
 from magwire.evidence.verify.references.sliding import torque_arrived
@@ -59,6 +60,27 @@ def test_torque_that_a_bend_takes(friction: float) -> None:
     expected = torque_arrived(0.0, -bend.turned, friction, THIN, pull)
     print(friction, record.guide_torque / expected, record.guide_twist, record.tip_twist)
     assert record.guide_torque == pytest.approx(expected, rel=0.02)
+
+
+@pytest.mark.parametrize(("friction", "edge"), [(0.15, 1.0e-3), (0.15, 0.7e-3), (0.1, 1.0e-3)])
+def test_a_buckled_wire_locks_up(friction: float, edge: float) -> None:
+    found = buckled(friction, 12.0, edge, slid=24e-3, step=0.2e-3)
+    error = np.abs(found.force / found.expected - 1.0).max()
+    print(friction, edge, found.turns, found.force[0] / found.force[-1], error)
+    assert found.turns > 6.0
+    assert error < 0.03
+
+
+@pytest.mark.parametrize("curved", [15.0, 60.0])
+@pytest.mark.parametrize("friction", [0.0, 0.1, 0.2])
+def test_a_curved_tip_whips(friction: float, curved: float) -> None:
+    found = whip(friction, curved, 1e-3, 0.05)
+    off = np.abs(found.tip - found.expected)[found.guide > 1.0]
+    jumps = [
+        found.guide[np.diff(angles, prepend=0.0) > 1.0] for angles in (found.tip, found.expected)
+    ]
+    print(friction, curved, np.median(off), np.sqrt(np.mean(off**2)), off.max(), jumps)
+    assert np.median(off) < 0.03
 
 
 @pytest.mark.parametrize("dt", [0.001, 0.01, 0.1])

@@ -110,6 +110,16 @@ def test_a_ratio_of_stiffness_of_more_than_ten_thousand_runs() -> None:
     assert result.max_tip_force > 0.0
 
 
+@pytest.mark.parametrize("nodes", [181, 361])
+def test_a_step_in_diameter_does_not_leave_the_wall(nodes: int) -> None:
+    """The shoulder of the magnet on the ground shaft, in a bend of 60 mm, at the usual step."""
+    wire = load("soft-magnet-on-steel").wire(nodes=nodes)
+    bend = mw.Lumen.half_circle(centreline_radius=60e-3, radius=4e-3)
+    run = mw.Simulation(wire, bend).run(mw.Feed(10e-3, 80e-3), record_every=1e-3)
+    assert run.status == "complete", run.message
+    assert run.smallest_clearance > 0.0
+
+
 def test_a_scenario_keeps_what_it_ran() -> None:
     """The scenario that a result carries has the sections, and the name of the device."""
     first = parsed('device = "guidewire-014"')

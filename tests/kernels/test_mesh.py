@@ -101,3 +101,7 @@ def test_each_node_has_the_radius_of_its_section() -> None:
     assert mesh.radius[10] == 0.7e-3
     assert mesh.radius[45] == 0.6e-3
     assert mesh.radius[-1] == 0.5e-3
+    assert mesh.radius[30] == 0.7e-3  # where two sections meet, the wider one
+    thin_first = lay_out(Wire([*reversed(three_sections(0.3, 0.3))], 101))
+    assert thin_first.radius[70] == 0.7e-3
+    assert thin_first.radius[69] == 0.6e-3

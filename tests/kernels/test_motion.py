@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from magwire.contact import Barrier, Friction, WallMotion
+from magwire.contact.motion import gone
 from magwire.engine.system import System
 from magwire.errors import InputError
 from magwire.kernels.centreline import LumenArrays
@@ -93,3 +94,17 @@ def test_motions_that_fold_the_tissue_are_refused() -> None:
         Simulation(wire, LUMEN, wall_motion=[steep, steep])
     with pytest.raises(InputError, match="wall_motion"):
         Simulation(wire, LUMEN, wall_motion=Friction(0.1))  # type: ignore[arg-type]
+
+
+def test_tissue_is_displaced_by_what_is_where_it_goes() -> None:
+    """Up to the largest strain that is taken; what is displaced as if at rest would be elsewhere."""
+    entrance = np.zeros(3)
+    steep = WallMotion((0.0, 4e-3, 0.0), 2.0, 15e-3 * 0.5 / 0.4999)
+    motions = (steep, WallMotion((1e-3, 0.0, 0.0), 0.7, 60e-3))
+    rest = np.random.default_rng(5).uniform(-10e-3, 10e-3, (50, 3))
+    there = gone(motions, rest, entrance, 0.8)
+    by = sum(one.at(there, entrance, 0.8) for one in motions)
+    np.testing.assert_allclose(there - by, rest, atol=1e-15)
+    straight = rest + sum(one.at(rest, entrance, 0.8) for one in motions)
+    assert np.abs(straight - there).max() > 1e-4
+    np.testing.assert_array_equal(gone((), rest, entrance, 0.8), rest)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from lagging import buckled, whip
 from magwire.contact import Barrier, Friction
 from magwire.engine.feed import Feed
 from magwire.evidence.verify.references.sliding import torque_arrived
@@ -126,6 +127,25 @@ def test_a_wire_that_is_turned_in_a_bend_loses_torque() -> None:
     expected = torque_arrived(0.0, -bend.turned, 0.1, THIN, pull)
     assert record.guide_torque == pytest.approx(expected, rel=0.02)
     assert record.tip_twist < record.guide_twist - 0.3
+
+
+def test_a_buckled_wire_locks_up() -> None:
+    """F = F_0/(1 + x/x*) within 3 percent, over more than six pitches: a third of it is lost."""
+    found = buckled(0.15, 9.0, 1.25e-3, slid=2e-3, step=0.5e-3)
+    assert found.turns > 6.0
+    assert found.expected[-1] < 0.75 * found.expected[0]
+    np.testing.assert_allclose(found.force, found.expected, rtol=0.03)
+
+
+@pytest.mark.parametrize(("friction", "curved"), [(0.1, 60.0)])
+def test_a_curved_tip_whips(friction: float, curved: float) -> None:
+    """Tip against guide over two turns; the stiffer one jumps by most of a turn at a time."""
+    found = whip(friction, curved, 1e-3, 0.1)
+    late = found.guide > 1.0  # how it came to rest at the start is in its friction
+    off = np.abs(found.tip - found.expected)[late]
+    assert np.median(off) < 0.03
+    assert np.sum(off > 0.2) <= (0 if curved < 50.0 else 4)  # a jump may be a step late
+    assert (np.diff(found.tip).max() > 4.0) == (curved > 50.0)
 
 
 def test_none_is_no_friction_bit_for_bit() -> None:

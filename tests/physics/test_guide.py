@@ -15,6 +15,7 @@ from magwire.lumen import Lumen
 from magwire.operate import March
 from magwire.simulation import Simulation
 from magwire.wire import Wire, lay_out
+from rubbing import energy
 from wires import L, flux, lumen, paper_wire
 
 Array = NDArray[np.float64]
@@ -148,3 +149,32 @@ def test_feeding_takes_the_push_less_what_the_bent_wire_does_at_the_mouth() -> N
     squeezed = 0.5 * straight.bending_stiffness * curvature**2
     assert squeezed > 0.05 * state.push_force
     assert slope == pytest.approx(state.push_force - squeezed, rel=1e-5)
+
+
+@pytest.mark.parametrize("rest", [(0.0, 0.0), (20.0, -10.0)])
+def test_the_hand_feels_what_feeding_costs(rest: tuple[float, float]) -> None:
+    """Also of a wire curved at rest and twisted: what is recorded is the slope of the energy."""
+    curved = Wire.uniform(
+        L,
+        0.6e-3,
+        3e6,
+        1e6,
+        2000.0,
+        60,
+        magnetized_tip=0.03,
+        magnetization=60e3,
+        rest_curvature=rest,
+    )
+    sim = Simulation(curved, lumen("sinusoid"), contact=Barrier(1e5, wall="centreline"))
+    session = sim.session(feed=0.0495, motion="quasi-static")
+    session.step(twist_rate=0.5 / session.time_step, inputs=(0.0, 5e-3, 10e-3))
+    apart, energies = 0.5e-6, []
+    for _ in range(2):
+        session.step(feed_speed=apart / session.time_step)
+        energies.append(energy(session))
+        if len(energies) == 1:
+            session.step(feed_speed=apart / session.time_step)
+            felt = session.record()
+    slope = (energies[1] - energies[0]) / (2.0 * apart)
+    assert felt.insertion_force == pytest.approx(slope, abs=1e-4 * felt.push_force)
+    assert abs(felt.insertion_force - felt.push_force) > 0.05 * abs(felt.push_force)

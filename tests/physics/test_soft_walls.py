@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from magwire.contact import Barrier, Friction
+from magwire.contact import Barrier, Friction, WallMotion
 from magwire.engine.feed import Feed
 from magwire.lumen import Lumen
 from magwire.simulation import Simulation
 from magwire.wire import Wire
 from rubbing import THIN, Bend, energy, rope, works
+from wires import lumen, paper_wire
 
 FOUNDATION = 1e8  # [Pa/m]
 
@@ -116,3 +117,41 @@ def test_a_hard_foundation_is_a_rigid_wall() -> None:
     assert runs[1].tip_force[-1] == pytest.approx(runs[0].tip_force[-1], rel=0.01)
     assert runs[1].largest_indentation < 1e-8
     assert runs[0].largest_indentation == 0.0
+
+
+def test_a_soft_wall_that_moves() -> None:
+    """Guide and wall do what wire and wall store, within 1 percent, and no contact is missed."""
+    breath = WallMotion((0.6e-3, 0.6e-3, 0.529e-3), 1.0, 25e-3)
+    sim = Simulation(
+        paper_wire(40),
+        lumen("half-circle"),
+        contact=Barrier(foundation=1e7),
+        wall_motion=breath,
+    )
+    session = sim.session(feed=45e-3, motion="quasi-static", time_step=5e-3)
+    session.step()
+    begun, stored = session.record(), energy(session)
+    done = works(session, np.tile([0.05e-3, 0.0], (100, 1)))
+    record = session.record()
+    wall = record.wall_work - begun.wall_work
+    assert done.guide + wall == pytest.approx(energy(session) - stored, abs=0.01 * done.guide)
+    assert abs(wall) > 0.05 * done.guide
+    assert record.clearance_along > 0.0
+    assert record.wall_indentation.max() > 1e-6
+
+
+def test_how_deep_a_wall_is_pressed_in_has_an_end() -> None:
+    """Half of the path's smallest radius: up to there a heavy wire sinks in, then it is said."""
+    wire = Wire.uniform(60e-3, 0.5e-3, 1e6, 3e5, 3000.0, 31)
+    tube = Lumen.straight(80e-3, 2e-3)
+    weight = 3000.0 * np.pi * 0.25e-6 * 9.81
+    for part, ends in ((0.8, False), (1.2, True)):
+        soft = Barrier(foundation=weight / (1e-3 * part * 1e-3))
+        sim = Simulation(wire, tube, contact=soft, gravity=(0.0, 0.0, -9.81), damping=10.0)
+        run = sim.run(Feed(20e-3, 55e-3), time_step=0.02)
+        assert (run.status == "complete") != ends
+        assert run.smallest_clearance > 0.0
+        if ends:
+            assert "half of the path's smallest radius" in run.message
+        else:
+            assert run.largest_indentation == pytest.approx(part * 1e-3, rel=0.05)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,6 +17,8 @@ STEEPEST = 1.875  # slope of the rise from 0 to 1, at its middle
 STRAIN = 0.5
 """Largest strain of the tissue. At one the tissue would fold; up to here every point of it comes
 from one place, which is found by going there and back."""
+PASSES = 60
+"""Of going there and back: each halves the error at least."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,3 +96,36 @@ class WallMotion:
         rise = part * s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
         result: Array = np.outer(rise, np.asarray(self.amplitude))
         return result
+
+
+def gone(
+    motions: Sequence[WallMotion], points: ArrayLike, entrance: ArrayLike, time: float
+) -> Array:
+    """Where tissue has gone that is at some points when the wall is at rest.
+
+    Parameters
+    ----------
+    motions
+        Displacements, which add up; together they strain the tissue by at most ``STRAIN``.
+    points, entrance
+        Shapes (n, 3) and (3,) [m].
+    time
+        [s].
+
+    Returns
+    -------
+    array
+        Shape (n, 3) [m].
+    """
+    rest = there = np.asarray(points, dtype=np.float64)
+    for _ in range(PASSES if motions else 0):  # a displacement is of where the tissue is
+        there = rest + np.sum([one.at(there, entrance, time) for one in motions], axis=0)
+    return there
+
+
+def recorded(data: Any) -> tuple[WallMotion, ...]:
+    """How the wall of a result's variables moves; at rest in those of versions that did not say."""
+    if "wall_period" not in data:
+        return ()
+    columns = (data[name].values for name in ("wall_amplitude", "wall_period", "wall_ramp"))
+    return tuple(WallMotion(a, float(t), float(r)) for a, t, r in zip(*columns, strict=True))

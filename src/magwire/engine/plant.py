@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from magwire.engine.command import Drive
 from magwire.engine.observation import Observation
-from magwire.engine.reaction import reaction
+from magwire.engine.reaction import reaction, squeeze
 from magwire.engine.record import Record, Totals
 from magwire.engine.sampling import SAMPLINGS, mismatch, sample
 from magwire.engine.status import Status
@@ -427,6 +427,7 @@ class Plant:
             tip_twist=seen.twist,
             material_director=seen.directors,
             push_force=seen.push,
+            insertion_force=seen.push - squeeze(system, state, self.mouth),
             guide_torque=seen.torque,
             newton_iterations=float(iterations),
             stable=seen.stable,

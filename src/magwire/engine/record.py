@@ -178,6 +178,9 @@ class Record:
     tip_departure
         Distance of the tip from where the navigator's model has it, the largest since the record
         before [m]; NaN if nobody compared.
+    insertion_force
+        Force that feeds the wire through the guide [N]: the push, less what the bend at the guide's
+        mouth squeezes out by itself (P-38).
     """
 
     time: float
@@ -206,3 +209,4 @@ class Record:
     stable: bool
     totals: Totals = field(default_factory=Totals)
     tip_departure: float = float("nan")
+    insertion_force: float = float("nan")

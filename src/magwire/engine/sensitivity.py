@@ -31,12 +31,18 @@ INPUT_STEP = 1e-5  # of an input, over itself or one, in the difference that sta
 
 def derivative(point: Point, output: Output, wrt: Input) -> Array:
     """Derivative of an output of an equilibrium by an input; see ``Equilibrium.sensitivity``."""
+    return outcome(point, output, wrt)
+
+
+def outcome(point: Point, output: Output, wrt: Input, moved: Array | None = None) -> Array:
+    """The same, from how the unknowns move, shape [inputs, nodes + 1, 4], if that is known."""
     one_of("sensitivity", "output", output, get_args(Output))
     one_of("sensitivity", "wrt", wrt, get_args(Input))
     system, held = point.system, point.mouth.held
     length = system.wire.length
-    loads, shape, unit = _loads(point, wrt)
-    moved = _solve(point, loads)  # [inputs, nodes + 1, 4], scaled
+    loads, shape, unit = loads_of(point, wrt)
+    if moved is None:
+        moved = _solve(point, loads)
     if wrt == "feed":
         moved[:, : held + 1, :3] = system.guide.direction
     elif wrt == "twist":
@@ -51,7 +57,7 @@ def derivative(point: Point, output: Output, wrt: Input) -> Array:
     return result.reshape(*result.shape[:-1], *shape)
 
 
-def _loads(point: Point, wrt: Input) -> tuple[Array, tuple[int, ...], float]:
+def loads_of(point: Point, wrt: Input) -> tuple[Array, tuple[int, ...], float]:
     """Derivatives of the gradient by the inputs, shape [inputs, nodes + 1, 4]; their shape; unit.
 
     The unit is what one scaled input is worth in SI.

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.contact.motion import recorded
 from magwire.export.frames import Frame, turned
 from magwire.export.vtp import write_pvd_list, write_vtp
 from magwire.export.wall import of_surface, wall
@@ -85,7 +86,7 @@ def _walls(data: xr.Dataset, branches: list[Array], frame: Frame) -> Drawn:
     mesh = wall(branches)
     if "surface_points" in data:
         mesh = of_surface(data["surface_points"].values, data["surface_triangles"].values, branches)
-    wall_motions, entrance = looks.wall_motions(data), looks.entrance(data)
+    wall_motions, entrance = recorded(data), looks.entrance(data)
     known = looks.radius(data)
     skin = 0.0 if looks.on_axis(data) or known is None else known
     position, force = data["position"].values, data["contact_force"].values

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from magwire.contact import WallMotion
+from magwire.contact.motion import gone
 
 Array = NDArray[np.float64]
 SIDES = 20
@@ -45,8 +46,7 @@ class Wall:
         """The wall where it is at a time [s]; itself if it does not move."""
         if not motions:
             return self
-        shift = sum(motion.at(self.points, entrance, time) for motion in motions)
-        return replace(self, points=self.points + shift)
+        return replace(self, points=gone(motions, self.points, entrance, time))
 
     @cached_property
     def _areas(self) -> Array:

@@ -13,6 +13,7 @@ from magwire.kernels.centreline import PIECES, SPACING, spline
 from magwire.kernels.hinge import material_frame
 from magwire.kernels.lanes import clear_rows
 from magwire.kernels.vectors import combine, dot, norm, row, scale, sub
+from magwire.kernels.wall.between import thick_at
 from magwire.kernels.wall.contact import add_walls
 from magwire.kernels.wall.foundation import at_edge, at_node, pressed_in
 from magwire.kernels.wall.gap import gap_jet, gap_value, slopes
@@ -48,12 +49,17 @@ def hop(lumen, x, t, offset, least):
 
 
 @kernel
-def nearest_on_edge(lumen, x, y, length, offset, least):
-    """Smallest clearance along an edge from x to y, or ``least`` if that is smaller."""
+def nearest_on_edge(rod, lumen, state, j, least):
+    """Smallest clearance along edge j, or ``least`` if that is smaller."""
+    x, y, length = row(state.q, j), row(state.q, j + 1), state.length[j]
     t = scale(1.0 / length, sub(y, x))
+    widens = abs(rod.offset[j + 1] - rod.offset[j]) / length
+    steep = pace(lumen.moving) * max(slopes(lumen.sheet)[1], 1.0) + widens
     s = 0.0
     while s < 1.0:
-        d, ahead = hop(lumen, combine(1.0 - s, x, s, y), t, offset, least)
+        d, ahead = hop(lumen, combine(1.0 - s, x, s, y), t, thick_at(rod, j, s), least)
+        if widens > 0.0:
+            ahead = max(d - least, 0.0) / steep
         least = min(least, d)
         s += max(FINEST, ahead / length)
     return least
@@ -74,27 +80,26 @@ def nearest_in_bed(rod, lumen, wall, state, j, least):
     """
     between, fast = wall.between, pace(lumen.moving)
     x, y = row(state.q, j), row(state.q, j + 1)
-    offset = max(rod.offset[j], rod.offset[j + 1])
+    widens = abs(rod.offset[j + 1] - rod.offset[j]) / state.length[j]
     part = state.length[j] / between.parts
     sunk = 0.0
     for k in range(between.parts + 1):
         s = k / between.parts
-        d = clearance_at(lumen, combine(1.0 - s, x, s, y), offset)
+        d = clearance_at(lumen, combine(1.0 - s, x, s, y), thick_at(rod, j, s))
         give = at_edge(wall.bed, j)
         if k == 0:
-            give, d = at_node(wall.bed, j), d + offset - rod.offset[j]
+            give = at_node(wall.bed, j)
         elif k == between.parts:
-            give, d = at_node(wall.bed, j + 1), d + offset - rod.offset[j + 1]
+            give = at_node(wall.bed, j + 1)
         after = pressed_in(give, d, wall.gap)
         if k > 0:
-            steep = fast + abs(after - sunk) / part
+            steep = fast + widens + abs(after - sunk) / part
             here = 0.0
             while here < 1.0:
                 share = (k - 1 + here) / between.parts
                 point = combine(1.0 - share, x, share, y)
                 bed = (1.0 - here) * sunk + here * after
-                thick = offset if 0.0 < share < 1.0 else rod.offset[j]
-                d = clearance_at(lumen, point, thick) + bed
+                d = clearance_at(lumen, point, thick_at(rod, j, share)) + bed
                 ahead = (d - least) / steep
                 least = min(least, d)
                 here += max(FINEST * between.parts, ahead / part)
@@ -106,9 +111,7 @@ def nearest_in_bed(rod, lumen, wall, state, j, least):
 def nearest_along(beds, rod, lumen, wall, state, j, least):
     """Smallest clearance along edge j, or ``least`` if that is smaller."""
     if len(beds) == 0:
-        x, y = row(state.q, j), row(state.q, j + 1)
-        offset = max(rod.offset[j], rod.offset[j + 1])
-        return nearest_on_edge(lumen, x, y, state.length[j], offset, least)
+        return nearest_on_edge(rod, lumen, state, j, least)
     else:
         return nearest_in_bed(rod, lumen, wall, state, j, least)
 
@@ -189,8 +192,7 @@ def observe(model, state, mouth, work, forces, clearance, sunk):
             between = min(between, clearance[i])
         if i < nodes - 1:
             y = row(state.q, i + 1)
-            offset = max(rod.offset[i], rod.offset[i + 1])
-            d = clearance_at(lumen, combine(0.5, x, 0.5, y), offset)
+            d = clearance_at(lumen, combine(0.5, x, 0.5, y), thick_at(rod, i, 0.5))
             middle = min(middle, d + pressed_in(at_edge(wall.bed, i), d, wall.gap))
     for j in range(held, nodes - 1):
         between = nearest_along(wall.bed, rod, lumen, wall, state, j, between)

@@ -44,6 +44,9 @@ QUANTITIES: dict[str, Quantity] = {
     ),
     "longest_contact": Quantity("m", "largest contact length", lambda r: r.longest_contact),
     "max_push_force": Quantity("N", "largest push at the guide", lambda r: r.max_push_force),
+    "max_insertion_force": Quantity(
+        "N", "largest force that feeds the wire", lambda r: r.max_insertion_force
+    ),
     "max_guide_torque": Quantity(
         "N m", "largest size of the torque at the guide", lambda r: r.max_guide_torque
     ),

@@ -15,6 +15,7 @@ from matplotlib.patches import FancyArrowPatch
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
+from magwire.contact.motion import recorded
 from magwire.errors import InputError, MagwireError, positive, whole
 from magwire.files import parse_toml, successor
 from magwire.plot import curves, shapes, style
@@ -124,6 +125,8 @@ class Scene:
         self.feed = 1e3 * data["feed"].values
         self.peak = float(np.linalg.norm(self.field, axis=1).max())
         self.plane = shapes.plane(data)
+        self.data = data if recorded(data) else None
+        self.walls: list[Any] = []
         dpi = 200.0 * size[0] / 1280.0
         self.figure: Any = Figure(figsize=(size[0] / dpi, size[1] / dpi), dpi=dpi)
         self.canvas: Any = FigureCanvasAgg(self.figure)
@@ -152,6 +155,12 @@ class Scene:
 
     def frame(self, record: int) -> Frame:
         """The picture of a record, shape (height, width, 3)."""
+        if self.data is not None:  # the wall moves
+            for artist in self.walls:
+                artist.remove()
+            time = float(self.time[record])
+            self.walls = shapes.draw_lumen(self.ax, self.data, self.plane, time)
+            self.still = self._background()
         self.canvas.restore_region(self.still)
         nodes = self.nodes[record]
         for line, part in zip(self.lines, (nodes, nodes[self.magnet]), strict=True):
@@ -203,6 +212,9 @@ class Scene:
         else:
             self.ax = self.figure.add_axes(place)
             shapes.draw_planar(self.ax, data, self.plane, wires=False)
+        if self.data is not None:  # what moves is drawn anew for every picture
+            for artist in [*self.ax.lines, *self.ax.patches, *self.ax.collections]:
+                artist.remove()
         self.low, self.high = shapes.window(data)
         title = style.plain(data.attrs.get("title", ""))
         self.figure.text(0.02, 0.955, title, fontsize=9.5, fontweight="bold", va="center")

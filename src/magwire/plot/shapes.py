@@ -12,7 +12,8 @@ from matplotlib.patches import Polygon
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from numpy.typing import NDArray
 
-from magwire.plot import style
+from magwire.contact.motion import recorded
+from magwire.plot import moving, style
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -98,20 +99,17 @@ def draw_planar(
     wires: bool = True,
     until: float | None = None,
 ) -> None:
-    """Draw lumen and wires in a coordinate plane; colours run up to the push ``until``."""
+    """Draw lumen and wires in a coordinate plane; colours run up to the push ``until``.
+
+    A wall that moves is filled where it is at rest; thin lines of a wire's colour show it where it
+    is at that wire's time.
+    """
     i, j = pair
-    sheet = surface(data)
-    if sheet is not None:
-        cut = LineCollection(
-            _cut(sheet, data, pair), colors=style.LUMEN_EDGE, linewidths=0.9, zorder=1
-        )
-        ax.add_collection(cut)
-    for left, right in _walls(data, pair) if sheet is None else ():
-        for wall in (left, right):
-            ax.plot(*wall.T, color=style.LUMEN_EDGE, linewidth=0.9, zorder=1)
-        corners = np.concatenate([left, right[::-1]])
-        ax.add_patch(Polygon(corners, facecolor=style.LUMEN_FILL, edgecolor="none", zorder=2))
-    for nodes, colour in _wires(data, until) if wires else ():
+    moves = bool(recorded(data))
+    draw_lumen(ax, data, pair)
+    for nodes, colour, time in _wires(data, until) if wires else ():
+        for wall in itertools.chain(*_walls(data, pair, time)) if moves else ():
+            ax.plot(*wall.T, color=colour, linewidth=0.6, zorder=2.5)
         ax.plot(nodes[:, i], nodes[:, j], color=colour, linewidth=1.6, zorder=3)
         ax.plot(*nodes[-1, [i, j]], "o", color=colour, markersize=4, mec="white", mew=0.5, zorder=4)
     low, high = window(data)
@@ -126,31 +124,64 @@ def draw_planar(
 def draw_spatial(
     ax: Any, data: xr.Dataset, *, wires: bool = True, until: float | None = None
 ) -> None:
-    """Draw lumen and wires in space, on 3D axes; colours run up to the push ``until``."""
-    parts, sheet = branches(data), surface(data)
-    if sheet is not None:
-        draw_sheet(ax, *sheet)
-    for part in parts if sheet is None else ():
-        x, y, z = _outside(tube(part), [other for other in parts if other is not part])
-        ax.plot_surface(
-            x, y, z, color=style.LUMEN_EDGE, alpha=0.16, linewidth=0.0, shade=False, zorder=1,
-            rstride=1, cstride=1, antialiased=True, rasterized=True,
-        )  # fmt: skip
+    """Draw lumen and wires in space, on 3D axes; colours run up to the push ``until``.
+
+    A wall that moves is where it is at the time of the longest wire.
+    """
+    shown = snapshots(data, until=until) if wires else []
+    draw_lumen(ax, data, None, float(data["time"].values[shown[-1]]) if shown else None)
+    parts = branches(data)
     low, high = window(data)
-    for nodes, colour in _wires(data, until) if wires else ():
+    for nodes, colour, _ in _wires(data, until) if wires else ():
         inside = nodes[np.all((nodes >= low) & (nodes <= high), axis=1)]
         ax.plot(*inside.T, color=colour, linewidth=1.8, zorder=3)
         ax.plot(*nodes[-1:].T, "o", color=colour, markersize=4, mec="white", mew=0.5, zorder=4)
     frame(ax, parts, (low, high), zoom=1.0 if len(parts) < 2 else 0.95)
 
 
-def draw_sheet(ax: Any, points: Array, triangles: NDArray[np.int64]) -> None:
+def draw_lumen(
+    ax: Any, data: xr.Dataset, pair: tuple[int, int] | None, time: float | None = None
+) -> list[Any]:
+    """Draw the lumen in a plane, or in space if it is none, where it is at a time [s]; its artists.
+
+    Without a time it is where it is at rest.
+    """
+    parts, sheet = branches(data), surface(data)
+    if sheet is not None:
+        sheet = moving.moved(data, sheet[0], time), sheet[1]
+        if pair is None:
+            return [draw_sheet(ax, *sheet)]
+        cut = LineCollection(
+            _cut(sheet, data, pair), colors=style.LUMEN_EDGE, linewidths=0.9, zorder=1
+        )
+        return [ax.add_collection(cut)]
+    made: list[Any] = []
+    if pair is not None:
+        for left, right in _walls(data, pair, time):
+            for wall in (left, right):
+                made += ax.plot(*wall.T, color=style.LUMEN_EDGE, linewidth=0.9, zorder=1)
+            corners = np.concatenate([left, right[::-1]])
+            filled = Polygon(corners, facecolor=style.LUMEN_FILL, edgecolor="none", zorder=2)
+            made.append(ax.add_patch(filled))
+        return made
+    parts = [part._replace(points=moving.moved(data, part.points, time)) for part in parts]
+    for part in parts:
+        x, y, z = _outside(tube(part), [other for other in parts if other is not part])
+        wall = ax.plot_surface(
+            x, y, z, color=style.LUMEN_EDGE, alpha=0.16, linewidth=0.0, shade=False, zorder=1,
+            rstride=1, cstride=1, antialiased=True, rasterized=True,
+        )  # fmt: skip
+        made.append(wall)
+    return made
+
+
+def draw_sheet(ax: Any, points: Array, triangles: NDArray[np.int64]) -> Any:
     """Draw triangles [mm] in space; of very many, some, evenly spread."""
     some = triangles[:: max(1, len(triangles) // TRIANGLES)]
     sheet = Poly3DCollection(
         points[some], facecolors=style.LUMEN_EDGE, alpha=0.16, linewidths=0.0, rasterized=True
     )
-    ax.add_collection3d(sheet)
+    return ax.add_collection3d(sheet)
 
 
 def surface(data: xr.Dataset) -> tuple[Array, NDArray[np.int64]] | None:
@@ -280,15 +311,16 @@ def _all_nodes(data: xr.Dataset) -> Array:
     return nodes if len(nodes) else np.zeros((1, 3))
 
 
-def _wires(data: xr.Dataset, until: float | None) -> Iterator[tuple[Array, Any]]:
-    """Nodes [mm] and colours of the wires to draw; the longest first, so that none is hidden.
+def _wires(data: xr.Dataset, until: float | None) -> Iterator[tuple[Array, Any, float]]:
+    """Nodes [mm], colours and times of the wires to draw; the longest first: none is hidden.
 
     The darkest colour stands for the push ``until``; for the last one if it is left out.
     """
     push = data["normalized_push"].values
     last = until or (float(push.max()) if push.size else 1.0)
     for k in reversed(snapshots(data, until=until)):
-        yield 1e3 * data["position"].values[k], style.PUSH(push[k] / last if last else 1.0)
+        colour, time = style.PUSH(push[k] / last if last else 1.0), data["time"].values[k]
+        yield 1e3 * data["position"].values[k], colour, float(time)
 
 
 def window(data: xr.Dataset) -> tuple[Array, Array]:
@@ -304,7 +336,8 @@ def window(data: xr.Dataset) -> tuple[Array, Array]:
     margin = 0.03 * size
     start, after = parts[0].points[:2]
     guide = start - (after - start) / np.linalg.norm(after - start) * GUIDE * size
-    return np.minimum(low - margin, guide), np.maximum(high + margin, guide)
+    back, forth = moving.reach(data)
+    return np.minimum(low + back - margin, guide), np.maximum(high + forth + margin, guide)
 
 
 def _tangents(points: Array) -> Array:
@@ -312,10 +345,12 @@ def _tangents(points: Array) -> Array:
     return np.asarray(slope / np.linalg.norm(slope, axis=1, keepdims=True))
 
 
-def _walls(data: xr.Dataset, pair: tuple[int, int]) -> Iterator[tuple[Array, Array]]:
-    """Both walls of each branch in the plane, shape (q, 2) [mm]."""
+def _walls(
+    data: xr.Dataset, pair: tuple[int, int], time: float | None = None
+) -> Iterator[tuple[Array, Array]]:
+    """Both walls of each branch in the plane, shape (q, 2) [mm]; at a time, or at rest."""
     for part in branches(data):
-        points = part.points[:, list(pair)]
+        points = moving.moved(data, part.points, time)[:, list(pair)]
         tangent = _tangents(points)
         normal = np.column_stack([-tangent[:, 1], tangent[:, 0]]) * part.radius[:, None]
         yield points + normal, points - normal

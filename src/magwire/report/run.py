@@ -136,6 +136,7 @@ def _forces(result: Result, passive: Result | None) -> Iterator[tuple[str, str]]
         ("  on the magnet", "max_magnet_force", force),
         ("longest contact", "longest_contact", _short),
         ("peak push at guide", "max_push_force", force),
+        ("  felt by the hand", "max_insertion_force", force),
         ("peak guide torque", "max_guide_torque", torque),
         ("peak friction", "largest_friction", force),
     ):

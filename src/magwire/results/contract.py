@@ -171,6 +171,12 @@ VARIABLES: dict[str, Variable] = {
     "push_force": Variable(
         ("time",), "N", "force of the guide on the wire, along the guide", lambda r, _: r.push_force
     ),
+    "insertion_force": Variable(
+        ("time",),
+        "N",
+        "force that feeds the wire through the guide: push less what the bend at its mouth does",
+        lambda r, _: r.insertion_force,
+    ),
     "guide_torque": Variable(
         ("time",),
         "N m",

@@ -27,7 +27,7 @@ NOT_YET = {
     "wall_work": 0.0,
 }
 """Of versions without friction, or whose walls were rigid and at rest."""
-LATER = {"guide_twist": np.nan, "tip_twist": np.nan}
+LATER = {"guide_twist": np.nan, "tip_twist": np.nan, "insertion_force": np.nan}
 ONLY_MOTION = "dynamic"  # of versions that did not say which
 
 

@@ -249,6 +249,11 @@ class Result:
         return self._largest("push_force")
 
     @property
+    def max_insertion_force(self) -> float:
+        """Largest force that feeds the wire, over all records [N]; NaN if unknown (P-38)."""
+        return self._largest("insertion_force")
+
+    @property
     def max_guide_torque(self) -> float:
         """Largest size of the torque at the guide over all records [N m]; NaN if unknown."""
         return largest(self.held, np.abs, "guide_torque")
@@ -477,6 +482,11 @@ class Result:
     def push_force(self) -> Array:
         """Force of the guide on the wire, along the guide, shape (t,) [N] (P-38)."""
         return self._array("push_force")
+
+    @property
+    def insertion_force(self) -> Array:
+        """Force that feeds the wire through the guide, shape (t,) [N] (P-38)."""
+        return self._array("insertion_force")
 
     @property
     def guide_torque(self) -> Array:

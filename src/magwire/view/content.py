@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
+from magwire.contact.motion import recorded
 from magwire.errors import InputError, shortened
 from magwire.view import looks, packing
 
@@ -62,7 +63,7 @@ def run(data: xr.Dataset, name: str) -> dict[str, Any]:
         },
         "branches": [packing.exact(tube, "float32") for tube in tubes],
         "surface": surface(data, tubes),
-        "motions": motions(looks.wall_motions(data)),
+        "motions": motions(recorded(data)),
         "arrays": arrays(data, smallest),
     }
 

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.contact import WallMotion
 from magwire.files import TextFaultError, parse_toml
 from magwire.units import parse
 
@@ -47,14 +46,6 @@ def on_axis(data: xr.Dataset) -> bool:
     """Whether the wall holds the wire's centreline and not its surface (P-12)."""
     contact = tables(data).get("contact", {})
     return isinstance(contact, dict) and contact.get("wall") == "centreline"
-
-
-def wall_motions(data: xr.Dataset) -> tuple[WallMotion, ...]:
-    """How the wall moves; at rest in results of versions that did not say it."""
-    if "wall_period" not in data:
-        return ()
-    columns = (data[name].values for name in ("wall_amplitude", "wall_period", "wall_ramp"))
-    return tuple(WallMotion(a, float(t), float(r)) for a, t, r in zip(*columns, strict=True))
 
 
 def entrance(data: xr.Dataset) -> Array:

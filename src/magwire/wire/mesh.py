@@ -96,8 +96,7 @@ class Cells:
                 owner.append(i)
                 ends.append(cut)
         self.owner, self.ends = np.array(owner), np.array(ends)
-        which = np.searchsorted(self.ends, self.station, side="left") - 1
-        self.which = np.clip(which, 0, len(self.pieces) - 1)
+        self.which = self._widest()
 
     @staticmethod
     def _inside(section: Section, marks: Array, first: float, last: float) -> Array:
@@ -155,8 +154,23 @@ class Cells:
 
     def radius(self) -> Array:
         """Outer radius at each node [m]."""
-        pieces = [self.pieces[i] for i in self.which]
-        along = (self.station - self.ends[self.which]) / np.diff(self.ends)[self.which]
+        return self._widths(self.which)
+
+    def _widest(self) -> NDArray[np.int64]:
+        """The piece that gives each node its radius: the wider one where two meet at a node."""
+        near = 1e-9 * self.station[-1]
+        before, after = (
+            np.clip(np.searchsorted(self.ends, self.station + off) - 1, 0, len(self.pieces) - 1)
+            for off in (-near, near)
+        )
+        wider = self._widths(after) > (1.0 + 1e-12) * self._widths(before)
+        result: NDArray[np.int64] = np.where(wider, after, before)
+        return result
+
+    def _widths(self, which: NDArray[np.int64]) -> Array:
+        """Outer radius of a piece for each node, where that is on it or at its end [m]."""
+        along = (self.station - self.ends[which]) / np.diff(self.ends)[which]
+        pieces = [self.pieces[i] for i in which]
         return np.array(
             [p.radius * (1.0 + (p.ratio - 1.0) * x) for p, x in zip(pieces, along, strict=True)]
         )

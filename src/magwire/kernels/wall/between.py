@@ -23,9 +23,15 @@ CAREFUL = 2.0  # bulges are sampled: what a chord may lose is taken this many ti
 
 
 @kernel
-def keep_off(rod, between, j):
-    """What the wall keeps from the axis at the points of edge j, with their margin."""
-    return max(rod.offset[j], rod.offset[j + 1]) + between.margin
+def thick_at(rod, j, s):
+    """What the wall keeps from the axis at a part s of edge j: linear between its nodes."""
+    return rod.offset[j] + s * (rod.offset[j + 1] - rod.offset[j])
+
+
+@kernel
+def keep_off(rod, between, j, s):
+    """The same at the points of the edge, with their margin."""
+    return thick_at(rod, j, s) + between.margin
 
 
 @kernel
@@ -123,14 +129,13 @@ def press_edge(rod, lumen, wall, state, j, gradient, band, r):
     between = wall.between
     energy = 0.0
     nearest = inf
-    offset = keep_off(rod, between, j)
     stiffness = between.stiffness * rod.rest[j] / between.parts
     give, fast = at_edge(wall.bed, j), pace(lumen.moving)
     sagitta = sag(lumen, wall, state.q, j)
     low, high = -inf, -inf  # what is left to the points' activation gap at the two ends
     if sagitta >= 0.0:
-        low = wall.jet[j, 0] - offset - between.gap
-        high = wall.jet[j + 1, 0] - offset - between.gap
+        low = wall.jet[j, 0] - keep_off(rod, between, j, 0.0) - between.gap
+        high = wall.jet[j + 1, 0] - keep_off(rod, between, j, 1.0) - between.gap
     room = inf
     first, last = 0, between.parts
     while last - first > 1:
@@ -143,6 +148,7 @@ def press_edge(rod, lumen, wall, state, j, gradient, band, r):
         onward = low <= high
         k = first + 1 if onward else last - 1
         s = k / between.parts
+        offset = keep_off(rod, between, j, s)
         x = combine(1.0 - s, row(state.q, j), s, row(state.q, j + 1))
         known = between.known[j, k]
         left = known[3] - offset - between.gap
@@ -160,6 +166,7 @@ def press_edge(rod, lumen, wall, state, j, gradient, band, r):
         if first < k < last:
             continue
         s = k / between.parts
+        offset = keep_off(rod, between, j, s)
         x = combine(1.0 - s, row(state.q, j), s, row(state.q, j + 1))
         known, jet = between.known[j, k], between.jet[j, k]
         if clear_of_wall(x, known, fast, offset + between.gap):

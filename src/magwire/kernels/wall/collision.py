@@ -68,9 +68,10 @@ def edge_part(rod, lumen, wall, q, step, j, r, limit):
     fast = pace(lumen.moving)
     if clear_edge(between, q, j, limit * max(norm(dx), norm(dy)) / CAUTION - between.gap):
         return limit
-    offset = keep_off(rod, between, j) - deepest(at_node(wall.bed, j))
+    leeway = deepest(at_node(wall.bed, j))
     for k in range(1, between.parts):
         s = k / between.parts
+        offset = keep_off(rod, between, j, s) - leeway
         here = combine(1.0 - s, x, s, y)
         move = combine(1.0 - s, dx, s, dy)
         known = between.known[j, k]

@@ -71,9 +71,9 @@ def slide(rod, lumen, wall, q, step, held, part, way):
         x, y = row(q, j), row(q, j + 1)
         if clear_edge(between, q, j, max(norm(dx), norm(dy)) - between.gap):
             continue
-        offset = keep_off(rod, between, j)
         for k in range(1, between.parts):
             s = k / between.parts
+            offset = keep_off(rod, between, j, s)
             here = combine(1.0 - s, x, s, y)
             move = combine(
                 1.0 - s, (way[r], way[r + 1], way[r + 2]), s, (way[r + 4], way[r + 5], way[r + 6])

@@ -143,31 +143,35 @@
   }
 
   // A wall that moves with the tissue as magwire.contact.motion says: moves the mesh to where it is at a time.
+  // A displacement is of where the tissue is, not of where it rests: found by going there and back.
   class Moving {
     constructor(mesh, motions, entrance) {
       const rest = mesh.positions;
       mesh.positions = rest.slice();
       const centres = mesh.rings.map(({ centre }) => centre);
-      const rises = ({ ramp }, points) => points.map((point) => {
-        const s = Math.min(1, norm(sub(point, entrance)) / ramp);
-        return s * s * s * (10 - 15 * s + 6 * s * s);
-      });
       const corners = Array.from({ length: rest.length / 3 }, (_, v) => at(rest, v));
-      Object.assign(this, { mesh, rest, centres });
-      this.motions = motions.map((motion) => ({ ...motion, corners: rises(motion, corners), rings: rises(motion, centres) }));
+      Object.assign(this, { mesh, corners, centres, motions, entrance });
+    }
+
+    gone(point, time) {
+      let there = point;
+      for (let pass = 0; pass < 40; pass++) {
+        const before = there;
+        there = point;
+        for (const { amplitude, period, ramp } of this.motions) {
+          const s = Math.min(1, norm(sub(before, this.entrance)) / ramp);
+          const rise = s * s * s * (10 - 15 * s + 6 * s * s);
+          there = add(there, scale(amplitude, rise * Math.sin((Math.PI * time) / period) ** 2));
+        }
+        if (norm(sub(there, before)) < 1e-9) break;
+      }
+      return there;
     }
 
     to(time) {
-      const { mesh, rest, centres } = this;
-      mesh.positions.set(rest);
-      mesh.rings.forEach((ring, k) => (ring.centre = centres[k]));
-      for (const { amplitude, period, corners, rings } of this.motions) {
-        const by = scale(amplitude, Math.sin((Math.PI * time) / period) ** 2);
-        corners.forEach((rise, v) => {
-          for (let i = 0; i < 3; i++) mesh.positions[3 * v + i] += rise * by[i];
-        });
-        mesh.rings.forEach((ring, k) => (ring.centre = add(ring.centre, scale(by, rings[k]))));
-      }
+      const { mesh, corners, centres } = this;
+      corners.forEach((corner, v) => mesh.positions.set(this.gone(corner, time), 3 * v));
+      mesh.rings.forEach((ring, k) => (ring.centre = this.gone(centres[k], time)));
     }
   }
 

@@ -1,0 +1,102 @@
+"""A helix of two and a half turns, guided and not: `python -m campaigns.friction_spiral`.
+
+In kind what Bruns, Riojas, Warren, Abbott and Webster did with a magnet-tipped array in a spiral
+phantom: does ln(push) rise with the angle gone round at the coefficient of friction, and what does
+steering take off.
+"""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+from numpy.typing import NDArray
+
+import magwire as mw
+from magwire.evidence.verify.references.sliding import arc_growth
+
+Array = NDArray[np.float64]
+
+RADIUS, PITCH, TUBE, THICK = 10e-3, 8e-3, 2e-3, 0.3e-3
+TURNS = 2.5
+FED = TURNS * float(np.hypot(2.0 * np.pi * RADIUS, PITCH))
+COEFFICIENTS = (0.0, 0.1, 0.2, 0.3)
+GUIDES = (0.0, 4e-3)
+"""Flux densities that guide [T]."""
+AHEAD = np.radians(20.0)
+
+
+def setup(friction: float) -> mw.Simulation:
+    """The paper's material, thinner, with a magnet at its tip."""
+    wire = mw.Wire.uniform(
+        FED + 4e-3, THICK, 3e6, 1e6, 2000.0, 120, magnetized_tip=6e-3, magnetization=128e3
+    )
+    lumen = mw.Lumen.helix(RADIUS, PITCH, FED + 12e-3, TUBE)
+    rubs = mw.Friction(friction) if friction > 0.0 else None
+    return mw.Simulation(wire, lumen, contact=mw.Barrier(1e6, 5e-5), friction=rubs)
+
+
+def gone_round(run: mw.Result) -> Array:
+    """The integral of the curvature along the wire at each record [rad]."""
+    edges = np.diff(run.position, axis=1)
+    edges /= np.linalg.norm(edges, axis=2)[:, :, None]
+    turns = np.clip((edges[:, 1:] * edges[:, :-1]).sum(axis=2), -1.0, 1.0)
+    return np.asarray(np.arccos(turns).sum(axis=1))
+
+
+def row(friction: float, run: mw.Result, strength: float) -> str:
+    """A line of the table: slopes over the last turn, and forces in EI/L^2.
+
+    Slopes of ln(push), and of ln(push over the force on the tip): steering changes the latter as
+    the wire goes in. Then the slope that is expected, and the push over EI tau^2.
+    """
+    angle, force, tip = gone_round(run), run.push_force, run.tip_force
+    late = angle > angle[-1] - 2.0 * np.pi
+    torsion = (PITCH / (2.0 * np.pi)) / (RADIUS**2 + (PITCH / (2.0 * np.pi)) ** 2)
+    small = 3e6 * 0.25 * np.pi * THICK**4 * torsion**2  # EI tau^2
+    expected = arc_growth(friction, -THICK / (RADIUS + TUBE - THICK)) if friction > 0.0 else 0.0
+    unit = run.force_scale
+    steep, net = slope(angle[late], force[late]), slope(angle[late], force[late] / tip[late])
+    return (
+        f"| {friction:g} | {1e3 * strength:g} | {steep:.3f} | {net:.3f} | {expected:.3f} | "
+        f"{force[late].min() / small:.3g} | {run.max_push_force / unit:.0f} | "
+        f"{run.max_insertion_force / unit:.0f} | {run.max_tip_force / unit:.0f} | "
+        f"{run.tip_force.mean() / unit:.0f} | {force[-1] / tip[-1]:.3g} |"
+    )
+
+
+def slope(angle: Array, force: Array) -> float:
+    """Of the logarithm of a force over the angle."""
+    return float(np.polyfit(angle, np.log(force), 1)[0])
+
+
+def push(sim: mw.Simulation, strength: float) -> mw.Result:
+    """The wire pushed in, in a field [T] that turns ahead of the tip towards the inside."""
+    speed, part, dt = 8e-3, 0.5e-3, 0.02
+    with sim.session(time_step=dt, record_every=1e-3 / speed) as session:
+        for feed in np.arange(part, FED + 0.5 * part, part):
+            tangent, inward = frame(feed)
+            field = strength * (np.cos(AHEAD) * tangent + np.sin(AHEAD) * inward)
+            session.step(feed_speed=speed, duration=part / speed, inputs=field)
+    return session.result
+
+
+def frame(feed: float) -> tuple[Array, Array]:
+    """Tangent of the centreline where the tip is, and the direction to the helix' axis."""
+    lumen = setup(0.0).system.lumen
+    curve = lumen.branches[0].curve
+    near = curve.at(np.array([feed - 0.2e-3, feed, feed + 0.2e-3]))[:, :3]
+    tangent = near[2] - near[0]
+    bend = near[2] - 2.0 * near[1] + near[0]
+    return tangent / np.linalg.norm(tangent), bend / np.linalg.norm(bend)
+
+
+def main(coefficients: tuple[float, ...] = COEFFICIENTS) -> None:
+    """Print the table, line by line."""
+    for friction in coefficients:
+        for strength in GUIDES:
+            print(row(friction, push(setup(friction), strength), strength), flush=True)
+
+
+if __name__ == "__main__":
+    main(tuple(float(one) for one in sys.argv[1:]) or COEFFICIENTS)
