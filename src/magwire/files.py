@@ -121,11 +121,14 @@ def is_left_over(path: Path) -> bool:
 
 
 def clear(path: Path) -> None:
-    """Remove the drafts of a file, or all those in a folder, that processes have left."""
+    """Remove what processes have left: a file's drafts, or all drafts and locks in a folder."""
     kind = f"*{DRAFT}*" if path.is_dir() else f"{path.stem}.????????{DRAFT}{path.suffix}"
     for draft in (path if path.is_dir() else path.parent).glob(f".{kind}"):
         with suppress(OSError):  # one that is a folder, or on Windows in use
             draft.unlink(missing_ok=True)
+    for lock in path.glob(".*.lock") if path.is_dir() else ():
+        with suppress(OSError), _held(lock):  # one that nobody holds goes when it is let go of
+            pass
 
 
 @contextmanager

@@ -191,6 +191,18 @@ def test_a_claim_ends_with_its_block(tmp_path: Path) -> None:
     assert os.listdir(tmp_path) == []
 
 
+def test_whoever_claims_a_folder_takes_away_what_nobody_holds(tmp_path: Path) -> None:
+    for name in (".result-none.nc.lock", ".result.1234.draft.nc"):
+        (tmp_path / name).touch()
+    with claimed(tmp_path / "result.nc", "Result file"):
+        with claimed(tmp_path, "Folder"):
+            there = sorted(os.listdir(tmp_path))
+            assert there == [".magwire.lock", ".result.nc.lock"]  # both of them are held
+        with pytest.raises(InUseError), claimed(tmp_path / "result.nc", "Result file"):
+            pass
+    assert os.listdir(tmp_path) == []
+
+
 def damage(what: str, file: h5py.File) -> None:
     if what == "variable":
         del file["normalized_push"]

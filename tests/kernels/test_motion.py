@@ -97,7 +97,7 @@ def test_motions_that_fold_the_tissue_are_refused() -> None:
 
 
 def test_tissue_is_displaced_by_what_is_where_it_goes() -> None:
-    """Up to the largest strain that is taken; what is displaced as if at rest would be elsewhere."""
+    """Up to the largest strain that is taken, where it matters most."""
     entrance = np.zeros(3)
     steep = WallMotion((0.0, 4e-3, 0.0), 2.0, 15e-3 * 0.5 / 0.4999)
     motions = (steep, WallMotion((1e-3, 0.0, 0.0), 0.7, 60e-3))
