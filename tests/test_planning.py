@@ -350,16 +350,19 @@ def test_a_plan_is_written_and_read_to_the_bit(
 
 
 def test_what_to_do_where_a_wire_has_nothing_to_lean_on() -> None:
-    """A tube of 20 mm that narrows to 3 mm between 40 and 44 mm."""
-    points = np.array([[x, 0.0, 0.0] for x in (0.0, 20.0, 38.0, 40.0, 44.0, 46.0, 60.0, 80.0)])
-    radii = np.array([10.0, 10.0, 10.0, 9.0, 2.0, 1.5, 1.5, 1.5])
+    """A tube of 20 mm that narrows to 3 mm between 40 and 60 mm."""
+    along = np.array([0.0, 20.0, 40.0, 45.0, 50.0, 55.0, 60.0, 80.0, 100.0])
+    radii = np.array([10.0, 10.0, 9.5, 8.0, 6.0, 4.0, 2.0, 1.5, 1.5])
+    points = np.stack([along, 0.0 * along, 0.0 * along], axis=1)
     system = mw.Simulation(WIRE, mw.Lumen.through(1e-3 * points, 1e-3 * radii)).system
     said = remedy(system, 0.01)
-    assert said.startswith("There the lumen is 20 mm wide, 3")
+    curve = system.path.branches[0].curve
+    width, half = 2e3 * curve.at(np.array([0.01]))[0, 3], 1e3 * curve.at(np.array([0.01]))[0, 3]
+    assert said.startswith(f"There the lumen is {width:.3g} mm wide, 4")
     x, y, z = (float(word) for word in re.findall(r"(-?[0-9.]+) mm[,\"]", said)[-3:])
-    assert 40.0 < x < 44.0
+    assert 2e3 * curve.at(np.array([1e-3 * x]))[0, 3] == pytest.approx(half, rel=0.05)
     assert (y, z) == (0.0, 0.0)
-    assert remedy(system, 0.05) == ""
+    assert remedy(system, 0.07) == ""  # it is narrow already
 
 
 @pytest.mark.parametrize(
