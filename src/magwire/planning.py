@@ -33,8 +33,9 @@ LEFT = 0.25  # of the gap, where the wire is bent around the sharpest bend
 HARD = 1e-3  # stiffness of the wall's barrier, over Young's modulus of the wire, at least
 ATTEMPTS = 3  # in one place
 SLACK = 1.1  # feed at most, over the length of the path: a wire may lie on the outside of bends
-WIDE = 6.0  # lumen's radius over the wire's, in which a wire has nothing to lean on
-MOUTH = 0.5  # of it is where the narrow part begins, farther along the path
+WIDE = 10.0  # lumen's radius over the wire's, in which a wire has nothing to lean on
+MOUTH = 0.5  # of that lumen's radius: from there down it counts as narrow
+AT_LIMIT = 0.98  # of the largest field, from which on it is what keeps a wire back
 
 
 @dataclass(frozen=True)
@@ -316,7 +317,9 @@ def _travel(nothing: Prospect, course: _Course, demands: Demands) -> Prospect:
         reason = f"All of the wire is inserted, and {left}. {plan.message}"
     else:
         reason = f"A course of the field was planned, but replayed with inertia {left}."
-    said = (reason.strip(), result.message, remedy(course.replayed.system, found.came))
+    bound = found.peak_field >= AT_LIMIT * demands.max_field  # then more field would do
+    advice = "" if bound else remedy(course.replayed.system, found.came)
+    said = (reason.strip(), result.message, advice)
     return replace(found, reason=" ".join(filter(None, said)))
 
 
