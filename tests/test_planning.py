@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import os
-from dataclasses import replace
+import re
+from dataclasses import fields, replace
 from pathlib import Path
 
 import numpy as np
@@ -13,8 +14,10 @@ import pytest
 import magwire as mw
 from magwire.cli import main
 from magwire.cli.errand import _wire
-from magwire.planning import firm_wall, fitted
+from magwire.many.planners import Task, plan_at_once
+from magwire.planning import firm_wall, fitted, remedy
 from magwire.plot import prospects as maps
+from magwire.report.outlets import begun, save, taken_up
 from magwire.scenario import load
 
 WIRE = mw.Wire.uniform(
@@ -254,6 +257,7 @@ def test_command_on_some_outlets_says_each_as_it_is_done(
 
     monkeypatch.setattr(errand, "plan", planned)
     words = ["plan", str(file), "--units", "mm", "--wire", "1 mm", "--out", str(out)]
+    words += ["--workers", "1"]
     targets = ["--target", "end-3", "--target", "2", "--entrance", "-0.1 mm, 0 mm, 0 mm"]
     assert main([*words, *targets, "--smoothing", "0.4", "--radius", "Radius"]) == 0
     first, second = seen
@@ -262,6 +266,103 @@ def test_command_on_some_outlets_says_each_as_it_is_done(
     assert second[0].startswith("end-3")  # it is there before the next one is tried
     assert "end-3" in second[1]
     assert "end-2" in capsys.readouterr().out
+
+
+def test_outlets_side_by_side_are_the_same_bits(found: dict[str, mw.Prospect]) -> None:
+    task = Task(FORK, WIRE, mw.Demands(), None)
+    beside = {p.outlet: p for p in plan_at_once(task, ("aside", "thin"), 2)}
+    assert sorted(beside) == ["aside", "thin"]
+    for name, prospect in beside.items():
+        same_to_the_bit(prospect, found[name])
+
+
+def same_to_the_bit(a: mw.Prospect, b: mw.Prospect) -> None:
+    for one in fields(a):
+        assert np.array_equal(
+            *(np.asarray(getattr(p, one.name)) for p in (a, b)),
+            equal_nan=(one.name not in ("outlet", "reason")),
+        ), one.name
+
+
+def test_what_fails_beside_is_said() -> None:
+    plain = mw.Wire(tuple(replace(s, magnetization=(0.0, 0.0, 0.0)) for s in WIRE.sections), 17)
+    with pytest.raises(mw.MagwireError, match="wire of plan must be magnetised; received none"):
+        list(plan_at_once(Task(FORK, plain, mw.Demands(), None), ("thin", "ahead"), 2))
+
+
+def test_a_plan_is_taken_up_where_it_was_left(
+    tmp_path: Path,
+    found: dict[str, mw.Prospect],
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The second outlet is interrupted; the same command plans it, and only it."""
+    import vessel_files
+    from magwire.cli import errand
+
+    file, out = tmp_path / "fork.vtp", tmp_path / "out"
+    file.write_bytes(vessel_files.vtp())
+    asked: list[str] = []
+    stop = True
+
+    def planned(lumen: mw.Lumen, wire: mw.Wire, *, outlets: tuple[str, ...], **_: object) -> list:  # type: ignore[type-arg]
+        asked.extend(outlets)
+        if stop and len(asked) == 2:
+            raise KeyboardInterrupt
+        return [replace(found["aside"], outlet=name) for name in outlets]
+
+    monkeypatch.setattr(errand, "plan", planned)
+    words = ["plan", str(file), "--units", "mm", "--wire", "1 mm", "--out", str(out)]
+    words += ["--workers", "1", "--entrance", "-0.1 mm, 0 mm, 0 mm"]
+    assert main(words) == 130
+    said = capsys.readouterr()
+    assert f"the same command takes up the plan in '{out}' again" in said.err
+    stop = False
+    first, second = asked
+    assert [row["outlet"] for row in json.loads((out / "plan.json").read_text())["outlets"]] == [
+        first
+    ]
+    assert main([*words, "--max-field", "90 mT"]) == 1  # another plan
+    assert "--force" in capsys.readouterr().err
+    assert main(words) == 0
+    said = capsys.readouterr()
+    assert "Taking up the plan" in said.err
+    assert asked == [first, second, second]
+    assert all(name in said.out for name in (first, second))
+    known = taken_up(out)
+    assert {p.outlet for p in known} == {first, second}
+    for prospect in known:
+        same_to_the_bit(prospect, replace(found["aside"], outlet=prospect.outlet))
+
+
+def test_a_plan_is_written_and_read_to_the_bit(
+    tmp_path: Path, found: dict[str, mw.Prospect]
+) -> None:
+    """Also infinities and what is not a number."""
+    save(FORK, list(found.values())[::-1], tmp_path, "mark")
+    assert begun(tmp_path, "mark")
+    assert not begun(tmp_path, "other")
+    assert not begun(tmp_path / "nowhere")
+    known = taken_up(tmp_path)
+    assert [p.outlet for p in known] == list(FORK.outlets)
+    for prospect in known:
+        same_to_the_bit(prospect, found[prospect.outlet])
+
+
+def test_what_to_do_where_a_wire_has_nothing_to_lean_on() -> None:
+    """A tube of 20 mm that narrows to 3 mm between 40 and 60 mm."""
+    along = np.array([0.0, 20.0, 40.0, 45.0, 50.0, 55.0, 60.0, 80.0, 100.0])
+    radii = np.array([10.0, 10.0, 9.5, 8.0, 6.0, 4.0, 2.0, 1.5, 1.5])
+    points = np.stack([along, 0.0 * along, 0.0 * along], axis=1)
+    system = mw.Simulation(WIRE, mw.Lumen.through(1e-3 * points, 1e-3 * radii)).system
+    said = remedy(system, 0.01)
+    curve = system.path.branches[0].curve
+    width, half = 2e3 * curve.at(np.array([0.01]))[0, 3], 1e3 * curve.at(np.array([0.01]))[0, 3]
+    assert said.startswith(f"There the lumen is {width:.3g} mm wide, 4")
+    x, y, z = (float(word) for word in re.findall(r"(-?[0-9.]+) mm[,\"]", said)[-3:])
+    assert 2e3 * curve.at(np.array([1e-3 * x]))[0, 3] == pytest.approx(half, rel=0.05)
+    assert (y, z) == (0.0, 0.0)
+    assert remedy(system, 0.07) == ""  # it is narrow already
 
 
 @pytest.mark.parametrize(

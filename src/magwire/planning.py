@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from magwire.contact import Barrier
 from magwire.engine.feed import Feed
+from magwire.engine.system import System
 from magwire.errors import InputError, instance
 from magwire.kernels.wall.barrier import barrier
 from magwire.lumen import Lumen
@@ -32,6 +33,9 @@ LEFT = 0.25  # of the gap, where the wire is bent around the sharpest bend
 HARD = 1e-3  # stiffness of the wall's barrier, over Young's modulus of the wire, at least
 ATTEMPTS = 3  # in one place
 SLACK = 1.1  # feed at most, over the length of the path: a wire may lie on the outside of bends
+WIDE = 10.0  # lumen's radius over the wire's, in which a wire has nothing to lean on
+MOUTH = 0.5  # of that lumen's radius: from there down it counts as narrow
+AT_LIMIT = 0.98  # of the largest field, from which on it is what keeps a wire back
 
 
 @dataclass(frozen=True)
@@ -235,12 +239,18 @@ def _prospect(
     yielding = firm_wall(wire, nothing.bend.radius, min(GAP, PART * room))
     course = _Course(
         planned=Simulation(long, lumen, contact=contact or yielding),
-        replayed=Simulation(long, lumen, contact=contact or Barrier()),
+        replayed=_briskly(Simulation(long, lumen, contact=contact or Barrier())),
         feed=Feed(SPEED * long.length, SLACK * way.length),
         every=every,
         goal=goal,
     )
     return _travel(nothing, course, demands)
+
+
+def _briskly(simulation: Simulation) -> Simulation:
+    """The simulation, with steps that are halved where they take an edge into the wall."""
+    simulation.system = replace(simulation.system, halves=True)
+    return simulation
 
 
 @dataclass(frozen=True)
@@ -307,4 +317,33 @@ def _travel(nothing: Prospect, course: _Course, demands: Demands) -> Prospect:
         reason = f"All of the wire is inserted, and {left}. {plan.message}"
     else:
         reason = f"A course of the field was planned, but replayed with inertia {left}."
-    return replace(found, reason=" ".join(filter(None, (reason.strip(), result.message))))
+    bound = found.peak_field >= AT_LIMIT * demands.max_field  # then more field would do
+    advice = "" if bound else remedy(course.replayed.system, found.came)
+    said = (reason.strip(), result.message, advice)
+    return replace(found, reason=" ".join(filter(None, said)))
+
+
+def remedy(system: System, came: float) -> str:
+    """What to do about a wire that stopped in a wide vessel before a narrow one; "" elsewhere.
+
+    Parameters
+    ----------
+    system
+        Wire and lumen.
+    came
+        How far along the path the tip came [m].
+    """
+    way = system.path.branches[0]
+    knots = way.curve.knots()
+    radii = way.curve.at(knots)[:, 3]
+    here = float(np.interp(came, knots, radii))
+    ahead = np.flatnonzero((knots > came) & (radii < MOUTH * here))
+    if here < WIDE * system.wire.radius or len(ahead) == 0:
+        return ""
+    mouth = float(knots[ahead[0]])
+    x, y, z = 1e3 * way.curve.at(knots[ahead[:1]])[0, :3]
+    return (
+        f"There the lumen is {2e3 * here:.3g} mm wide, {1e3 * (mouth - came):.3g} mm before it "
+        "narrows to half of that, and the wire has nothing to lean on: enter where it narrows, "
+        f'with the entrance "{x:.1f} mm, {y:.1f} mm, {z:.1f} mm", or use a stiffer wire.'
+    )

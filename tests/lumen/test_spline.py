@@ -7,6 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
+from magwire.lumen.branch import Branch
 from magwire.lumen.spline import hermite, spline
 
 Array = NDArray[np.float64]
@@ -47,3 +48,12 @@ def test_hermite_cubics_are_those_of_scipy(rng: np.random.Generator) -> None:
     assert ours(x).shape == (7, 5, 3)
     np.testing.assert_allclose(ours(x), scipys(x), atol=1e-12)
     np.testing.assert_allclose(ours(x, 1), scipys(x, 1), atol=1e-11)
+
+
+def test_one_place_on_a_curve_is_that_of_many_to_the_bit(rng: np.random.Generator) -> None:
+    points = np.cumsum(rng.uniform(0.5e-3, 2e-3, (9, 3)), axis=0)
+    curve = Branch(points, rng.uniform(4e-4, 6e-4, 9)).curve
+    for s in (-1e-3, 0.0, *rng.uniform(0.0, curve.length, 20), curve.length, curve.length + 1e-3):
+        point, slope = curve.place(float(s))
+        np.testing.assert_array_equal(point, curve.at(np.array([s]))[0])
+        np.testing.assert_array_equal(slope, curve.at(np.array([s]), 1)[0])

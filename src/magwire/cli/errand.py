@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+import numpy as np
 
 from magwire.cli.reading import spot
 from magwire.contact import Barrier
@@ -107,10 +110,11 @@ def of_scenario(scenario: Scenario, words: Words) -> Work:
 
 
 def outlets(work: Work, targets: Sequence[str]) -> tuple[str, ...]:
-    """The outlets that are asked for, each once; all of them if none is."""
+    """The outlets that are asked for, each once; if none is all of them, the nearest one first."""
     known = work.lumen.outlets
     if not targets or not known:
-        return known or ("outlet",)
+        ways = work.lumen.paths
+        return tuple(sorted(known, key=lambda name: ways[name].length)) or ("outlet",)
     if work.vessel is not None:
         found = [work.vessel.outlet(spot(target, "--target")) for target in targets]
         return tuple(dict.fromkeys(name for name in found if name is not None))
@@ -118,8 +122,14 @@ def outlets(work: Work, targets: Sequence[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(names))
 
 
-def carried_out(work: Work, names: Sequence[str]) -> Iterator[Prospect]:
-    """Plan for one outlet after the other."""
+def carried_out(work: Work, names: Sequence[str], workers: int = 1) -> Iterator[Prospect]:
+    """Plan for outlets, as many at a time as there are workers; yielded as they are done."""
+    if workers > 1 and len(names) > 1:
+        from magwire.many.planners import Task, plan_at_once
+
+        task = Task(work.lumen, work.wire, work.demands, work.contact)
+        yield from plan_at_once(task, names, workers)
+        return
     for name in names:
         yield from plan(
             work.lumen,
@@ -128,6 +138,23 @@ def carried_out(work: Work, names: Sequence[str]) -> Iterator[Prospect]:
             contact=work.contact,
             outlets=(name,) if work.lumen.outlets else (),
         )
+
+
+def fingerprint(work: Work) -> str:
+    """A few letters that are the same for the same lumen, wire, demands, wall and version only."""
+    from magwire import __version__
+
+    seen = hashlib.sha256(repr((__version__, work.wire.nodes)).encode())
+    seen.update(repr((work.wire.sections, work.demands, work.contact)).encode())
+    ways = work.lumen.paths or {"outlet": work.lumen.branches[0]}
+    for name in sorted(ways):
+        seen.update(name.encode())
+        for part in ways[name].centreline():
+            seen.update(np.ascontiguousarray(part).tobytes())
+    if work.lumen.sheet is not None:
+        seen.update(np.ascontiguousarray(work.lumen.sheet.points).tobytes())
+        seen.update(np.ascontiguousarray(work.lumen.sheet.triangles).tobytes())
+    return seen.hexdigest()[:16]
 
 
 def _wire(words: Words, lumen: Lumen) -> Wire:

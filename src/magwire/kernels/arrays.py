@@ -222,12 +222,14 @@ class Motion(NamedTuple):
 class Work(NamedTuple):
     """Scratch arrays of the solver, allocated once; ``no_band`` has no rows.
 
-    way: change of the unknowns in a step whose edges turn, laid out as ``step``. before: state at
-    the start of a step that is cut. inputs [m]: of the actuator, within a step.
+    kept: the band before it is factored, where that takes more than one attempt. way: change of the
+    unknowns in a step whose edges turn, laid out as ``step``. before: state at the start of a step
+    that is cut. inputs [m]: of the actuator, within a step.
     """
 
     gradient: Array
     band: Array
+    kept: Array
     no_band: Array
     step: Array
     way: Array

@@ -152,7 +152,13 @@ def time_step(model, guide, state, work, limits, slides, start, end, dt, drive):
     update_frames(state, work.ahead, held)
     motion = Motion(drag / (dt * dt) if drive.inertia else 0.0, work.target)
     limits = Limits(
-        limits.tolerance, limits.iterations, limits.shift, limits.step, limits.turn, slides
+        limits.tolerance,
+        limits.iterations,
+        limits.shift,
+        limits.step,
+        limits.turn,
+        slides,
+        limits.halve,
     )
     mouth = Mouth(held, fraction)
     return solve_step(wall.friction, model, state, mouth, motion, work, limits, dt)

@@ -37,7 +37,8 @@ class Limits(NamedTuple):
     full step shorter than this, in L, and than a hundredth of every clearance in which the wall is
     felt, is the last one: it changes no wall force by more than a few percent, and the next step
     would be its square. turn: part of a step from which on its edges may turn, if the line search
-    comes down to it. slide: whether steps follow the wall.
+    comes down to it. slide: whether steps follow the wall. halve: whether a step that takes a point
+    between two nodes into the wall is halved, instead of asking how far each point may go.
     """
 
     tolerance: float
@@ -46,6 +47,7 @@ class Limits(NamedTuple):
     step: float = 0.0
     turn: float = 1.0
     slide: bool = False
+    halve: bool = False
 
 
 @kernel
@@ -80,33 +82,62 @@ def add_shift(rod, band, held, shift):
             band[r + 3, 0] += shift * rod.inertia[i]
 
 
+@kernel
+def copy_band(source, target, rows):
+    """Copy the first rows of a band."""
+    for r in range(rows):
+        store(target, r, 0, load(source, r, 0))
+        store(target, r, 4, load(source, r, 4))
+        store(target, r, 8, load(source, r, 8))
+
+
 @part
-def find_step(model, state, mouth, motion, work, limits):
-    """Solve for the Newton step, regularised as far as Cholesky asks; count of factorisations.
+def find_step(model, state, mouth, motion, work, limits, level):
+    """Solve for the Newton step, regularised as little as Cholesky allows.
 
     Expects gradient and band of ``state`` in ``work``. Leaves the factor in the band.
+
+    A matrix stays positive definite as the shift grows. Levels of it are therefore searched from
+    where the iteration before found one, with copies of the band: where many iterations in a row
+    need a large shift, that takes two factorisations in each.
+
+    Returns the number of factorisations, negative if no level will do; and the level, 0 for none.
     """
     held = mouth.held
     nodes = state.q.shape[0]
     last = 4 * (nodes - held + 1) - 1
-    shift = 0.0
     count = 0
-    for _ in range(SHIFTS):
+    short_of = -1  # the largest level that is known not to do
+    level = max(level - 1, 0)
+    kept = level > 0
+    if kept:
+        copy_band(work.band, work.kept, last + 1)
+    while True:
+        if level > 0 and not kept:
+            assemble(model, state, mouth, motion, work.gradient, work.band)
+            copy_band(work.band, work.kept, last + 1)
+            kept = True
+        elif count > 0:
+            copy_band(work.kept, work.band, last + 1)
+        if level > 0:
+            add_shift(model[0], work.band, held, limits.shift * SHIFT_GROWTH ** (level - 1))
         count += 1
         if factor(work.band, FIRST, last) < 0:
-            break
-        shift = max(limits.shift, SHIFT_GROWTH * shift)
-        assemble(model, state, mouth, motion, work.gradient, work.band)
-        add_shift(model[0], work.band, held, shift)
-    else:
-        return -count
+            if level == short_of + 1:
+                break
+            level -= 1
+        else:
+            short_of = level
+            level += 1
+            if level == SHIFTS:
+                return -count, 0
     for i in range(held, nodes):
         store(work.step, 4 * (i - held + 1), 0, -load(work.gradient, i, 0))
     for r in range(FIRST):
         work.step[r] = 0.0
     work.step[last] = 0.0
     solve(work.band, work.step, FIRST, last)
-    return count
+    return count, level
 
 
 @short
@@ -169,7 +200,7 @@ def search(model, a, b, mouth, motion, work, limits, aim):
         share = allowed_part(rod, lumen, wall, a.q, work.step, held, 0.0)
         leeway = 0.0
     far = limits.step == 0.0  # from the end, where a step that is halved leads nowhere
-    blind = not limits.slide and not far  # to points between the nodes
+    blind = not (limits.slide or far or limits.halve)  # to points between the nodes
     if far and not limits.slide:
         share = allowed_between(rod, lumen, wall, a.q, work.step, held, share)
     for _ in range(HALVINGS):
@@ -213,6 +244,7 @@ def newton(model, state, mouth, motion, work, limits):
     copy_configuration(state, a, held)
     factorisations = 0
     iteration = 0
+    level = 0
     energy, nearest, size = 0.0, inf, inf
     status = CONVERGED
     while status == CONVERGED and not size <= limits.tolerance:
@@ -227,7 +259,7 @@ def newton(model, state, mouth, motion, work, limits):
             if not energy < inf or size <= limits.tolerance:
                 break
         iteration += 1
-        count = find_step(model, a, mouth, motion, work, limits)
+        count, level = find_step(model, a, mouth, motion, work, limits, level)
         factorisations += abs(count)
         if count < 0:
             status = STALLED

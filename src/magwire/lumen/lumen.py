@@ -94,6 +94,16 @@ class Lumen:
     def __repr__(self) -> str:
         return lumen_words(self)
 
+    def __getstate__(self) -> dict[str, Any]:
+        """For pickle, which knows no read-only mappings."""
+        paths = self.paths if isinstance(self.paths, Lazy) else dict(self.paths)
+        return self.__dict__ | {"paths": paths}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        paths = state["paths"]
+        paths = paths if isinstance(paths, Lazy) else MappingProxyType(paths)
+        self.__dict__.update(state | {"paths": paths})
+
     @classmethod
     def straight(cls, length: float, radius: float) -> Lumen:
         """Straight tube along x from the origin.

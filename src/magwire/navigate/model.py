@@ -277,10 +277,8 @@ class Model:
             lumen's radius there [m].
         """
         tip = self._plant.state.q[-1, :3] * self.system.wire.length
-        curve = self.path.branches[0].curve
-        where = np.array([self.tip_arc()])
-        centre, along = curve.at(where)[0], curve.at(where, 1)[0, :3]
-        axes = across(along)
+        centre, along = self.path.branches[0].curve.place(self.tip_arc())
+        axes = across(along[:3])
         return axes, axes @ (tip - centre[:3]), float(centre[3])
 
     def tip_arc(self) -> float:

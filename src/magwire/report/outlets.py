@@ -7,15 +7,16 @@ import io
 import json
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
+
+import numpy as np
 
 from magwire.files import write_whole
 from magwire.lumen import Lumen
+from magwire.lumen.branch import Bend
 from magwire.planning import Prospect
-
-if TYPE_CHECKING:
-    pass
 
 TABLES, MAP = ("plan.csv", "plan.json"), "plan.png"
 COLUMNS = {
@@ -94,25 +95,95 @@ def reasons(prospects: Sequence[Prospect]) -> list[str]:
     return [f"{p.outlet}: {p.reason}" for p in prospects if p.reason]
 
 
-def save(lumen: Lumen, prospects: Sequence[Prospect], folder: Path) -> list[Path]:
-    """Write the table as CSV and JSON, as far as it has come, and the map; the files."""
+def save(lumen: Lumen, prospects: Sequence[Prospect], folder: Path, mark: str = "") -> list[Path]:
+    """Write the table as CSV and JSON, as far as it has come, and the map; the files.
+
+    Parameters
+    ----------
+    lumen
+        The lumen, whose outlets the rows follow.
+    prospects
+        What is done, in any order.
+    folder
+        Where to.
+    mark
+        What the plan is known by when it is taken up again.
+    """
     from magwire.plot import prospects as maps
 
+    order = {name: k for k, name in enumerate(lumen.outlets)}
+    prospects = sorted(prospects, key=lambda p: order.get(p.outlet, 0))
     rows = [_row(p) for p in prospects]
     text = io.StringIO(newline="")
     writer = csv.writer(text)
     writer.writerow([f"{n} [{unit}]" if unit else n for n, unit in COLUMNS.items()])
     writer.writerows(row.values() for row in rows)
     write_whole(folder / TABLES[0], text.getvalue())
-    found = {"units": COLUMNS, "outlets": [_finite(row) for row in rows]}
-    write_whole(folder / TABLES[1], json.dumps(found, indent=2) + "\n")
+    found = {"units": COLUMNS, "outlets": [_finite(row) for row in rows], "plan": mark}
+    words = json.dumps(found, indent=2, allow_nan=False).removesuffix("\n}")
+    courses = json.dumps([_course(p) for p in prospects], allow_nan=False)
+    write_whole(folder / TABLES[1], f'{words},\n  "courses": {courses}\n}}\n')
     paths = lumen.paths or {"outlet": lumen.branches[0]}
     maps.save(
         {name: path.centreline() for name, path in paths.items()},
         {p.outlet: (p.arc, p.flux_density) for p in prospects},
         folder / MAP,
     )
+    return files(folder)
+
+
+def files(folder: Path) -> list[Path]:
+    """What ``save`` writes to a folder."""
     return [folder / name for name in (*TABLES, MAP)]
+
+
+def begun(folder: Path, mark: str | None = None) -> bool:
+    """Whether a folder holds the beginning of a plan, or of the one with this mark."""
+    try:
+        found = json.loads((folder / TABLES[1]).read_text(encoding="utf-8"))
+        return bool(found["plan"]) if mark is None else found["plan"] == mark
+    except (OSError, ValueError, KeyError, TypeError):
+        return False
+
+
+def taken_up(folder: Path) -> list[Prospect]:
+    """What ``save`` has written, to the last bit."""
+    found = json.loads((folder / TABLES[1]).read_text(encoding="utf-8"))
+    return [_prospect(course) for course in found["courses"]]
+
+
+def _course(p: Prospect) -> dict[str, Any]:
+    """A prospect in SI; JSON knows neither infinity nor NaN: these are words."""
+    values: dict[str, Any] = {}
+    for one in fields(p):
+        value = getattr(p, one.name)
+        if isinstance(value, np.ndarray):
+            values[one.name] = value.tolist()
+        elif isinstance(value, Bend):
+            values[one.name] = [_number(value.radius), _number(value.arc)]
+        else:
+            values[one.name] = _number(value) if isinstance(value, float) else value
+    return values
+
+
+def _prospect(course: Mapping[str, Any]) -> Prospect:
+    """What ``_course`` was made of."""
+    values: dict[str, Any] = {}
+    for one in fields(Prospect):
+        value = course[one.name]
+        if one.name == "bend":
+            values[one.name] = Bend(float(value[0]), float(value[1]))
+        elif isinstance(value, list):
+            values[one.name] = np.array(value, dtype=np.float64)
+        elif one.name in ("outlet", "reason", "reached"):
+            values[one.name] = value
+        else:
+            values[one.name] = float(value)
+    return Prospect(**values)
+
+
+def _number(value: float) -> float | str:
+    return value if math.isfinite(value) else str(value)
 
 
 def _row(p: Prospect) -> dict[str, str | float | bool]:

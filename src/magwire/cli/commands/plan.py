@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from magwire.cli.folders import check_free, occupied, writing_to
 from magwire.cli.options import Flag
 from magwire.cli.reading import USUAL, Points, Reading, refuse, source_of
-from magwire.cli.words import say, say_if_compiling
+from magwire.cli.words import INTERRUPTED, complain, say, say_if_compiling
 
 if TYPE_CHECKING:
     from magwire.cli.errand import Work
+    from magwire.planning import Prospect
 
 
 def plan_outlets(
@@ -24,6 +24,7 @@ def plan_outlets(
     youngs_modulus: str | None = None,
     magnetization: str | None = None,
     magnetized_tip: str | None = None,
+    workers: int | None = None,
     out: Path | None = None,
     force: Flag = False,
 ) -> int:
@@ -48,13 +49,18 @@ def plan_outlets(
         With a vessel's file: of the magnet along its axis, "128 kA/m" if left out.
     magnetized_tip
         With a vessel's file: length of the magnet; ten radii of the wire if left out.
+    workers
+        Processes, each of which plans for one outlet at a time; one for each core if left out.
     out
         Folder for plan.csv, plan.json and the map plan.png, renewed as each outlet is done; nothing
-        is written if left out.
+        is written if left out. A plan that was interrupted there is taken up again.
     force
         Overwrite what is there.
     """
     from magwire.cli import errand
+    from magwire.errors import whole
+    from magwire.many.runs import cores
+    from magwire.report import outlets
     from magwire.scenario import load, names
 
     words = {
@@ -64,7 +70,8 @@ def plan_outlets(
         "magnetization": magnetization,
         "magnet": magnetized_tip,
     }
-    if out is not None:  # better said before the work than after it
+    count = whole("plan", "workers", cores() if workers is None else workers, minimum=1)
+    if out is not None and not outlets.begun(out):  # better said before the work than after it
         check_free(out, force=force)
     say_if_compiling()
     if len(sources) == 1 and (sources[0] in names() or Path(sources[0]).suffix == ".toml"):
@@ -80,13 +87,26 @@ def plan_outlets(
     else:
         source = source_of(tuple(map(Path, sources)))
         work = errand.of_file(source, reading.units, words, reading.options(), reading.wall)
-    with nullcontext() if out is None else occupied(out, force=force):
-        _carry_out(work, errand.outlets(work, target), out)
+    wanted = errand.outlets(work, target)
+    if out is None:
+        _carry_out(work, wanted, None, count)
+        return 0
+    again = not force and outlets.begun(out, errand.fingerprint(work))
+    with occupied(out, force=force or again):
+        if again:
+            complain(f"Taking up the plan in '{out}'.")
+        try:
+            _carry_out(work, wanted, out, count, again=again)
+        except KeyboardInterrupt:
+            complain(f"Interrupted; the same command takes up the plan in '{out}' again.")
+            return INTERRUPTED
     return 0
 
 
-def _carry_out(work: Work, names: tuple[str, ...], out: Path | None) -> None:
-    """Plan for one outlet after the other; say and write each as it is done."""
+def _carry_out(
+    work: Work, names: tuple[str, ...], out: Path | None, workers: int, *, again: bool = False
+) -> None:
+    """Plan for the outlets; say and write each as it is done, first those of an earlier time."""
     from magwire.cli import errand
     from magwire.report import outlets
     from magwire.report.progress import pieces
@@ -94,16 +114,25 @@ def _carry_out(work: Work, names: tuple[str, ...], out: Path | None) -> None:
     for note in work.notes:
         say(note)
     say(outlets.head(names))
-    done, files = [], []
-    with pieces(len(names)) as begin:
-        begin(names[0])
-        for prospect in errand.carried_out(work, names):
+    done: list[Prospect] = []
+    files: list[Path] = []
+    if again and out is not None:
+        done, files = outlets.taken_up(out), outlets.files(out)
+        for prospect in done:
+            if prospect.outlet in names:
+                say(outlets.row(prospect, names))
+    known = {prospect.outlet for prospect in done}
+    left = [name for name in names if name not in known]
+    mark = "" if out is None else errand.fingerprint(work)
+    with pieces(len(left)) as begin:
+        begin(", ".join(left[:workers]))
+        for prospect in errand.carried_out(work, left, workers):
             done.append(prospect)
             say(outlets.row(prospect, names))
             if out is not None:
                 with writing_to(out):
-                    files = outlets.save(work.lumen, done, out)
-            if len(done) < len(names):
-                begin(names[len(done)])
-    for line in [*outlets.reasons(done), *map(str, files)]:
+                    files = outlets.save(work.lumen, done, out, mark)
+            begin(", ".join(n for n in left if n not in {p.outlet for p in done}))
+    asked = [prospect for prospect in done if prospect.outlet in names]
+    for line in [*outlets.reasons(asked), *map(str, files)]:
         say(line)
