@@ -20,6 +20,7 @@ from magwire.navigate.navigator import Prescribed
 from magwire.navigate.schedule import Schedule, last_tries
 from magwire.navigate.tip import TipNavigator
 from magwire.simulation import Simulation
+from magwire.status import RunStatus
 from magwire.wire import Wire
 
 Array = NDArray[np.float64]
@@ -311,7 +312,7 @@ def _travel(nothing: Prospect, course: _Course, demands: Demands) -> Prospect:
         return found
     planned = course.planned.tip_arc(plan.position[-1])
     left = f"{1e3 * (goal - found.came):.4g} mm are left"
-    if plan.status != "complete":
+    if plan.status != RunStatus.COMPLETE:
         reason = plan.message
     elif planned < goal:
         reason = f"All of the wire is inserted, and {left}. {plan.message}"
