@@ -228,10 +228,10 @@ def _thin(
 
     Those at a valley, ``forked``, all stay: two maxima may be as close as one likes.
     """
-    order = np.lexsort((seeds[:, 2], seeds[:, 1], seeds[:, 0]))
+    key = seeds[:, 0] * (1.0 + seeds[:, 1].max(initial=0.0)) + seeds[:, 1]  # a whole number
+    order = np.lexsort((seeds[:, 2], key))
     seeds, forked = seeds[order], forked[order]
-    same = (np.diff(seeds[:, :2], axis=0) == 0.0).all(axis=1)
-    close = same & (np.diff(seeds[:, 2]) < 0.5 * narrowest)
+    close = (np.diff(key[order]) == 0.0) & (np.diff(seeds[:, 2]) < 0.5 * narrowest)
     dropped = np.concatenate([[False], close]) | np.concatenate([close & forked[1:], [False]])
     kept = forked | ~dropped
     return seeds[kept], forked[kept]

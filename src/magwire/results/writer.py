@@ -7,7 +7,6 @@ import math
 import os
 import shutil
 import time
-from array import array
 from bisect import bisect_left
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -90,7 +89,6 @@ class Writer:
         self.path = None if path is None else Path(path)
         self.closed = False
         self._waiting: list[Record] = []
-        self._times = array("d")  # of all records, in the file or waiting
         self._last: Record | None = None
         self._written = 0
         self._due = 0.0
@@ -110,7 +108,6 @@ class Writer:
         """Take a record; its arrays must not be changed afterwards."""
         self._last = record
         self._waiting.append(record)
-        self._times.append(record.time)
         if self.path is None:
             return
         if time.monotonic() >= self._due:
@@ -123,13 +120,23 @@ class Writer:
 
         A file keeps what was flushed until the next flush, which takes it out.
         """
-        kept = bisect_left(self._times, record.time - SAME)
-        del self._times[kept:]
+        kept = self._before(record.time - SAME)
         del self._waiting[max(0, kept - self._written) :]
         self._written = min(self._written, kept)
         if kept < self._flushed[0]:
             self._flushed = (kept, record)
         self.append(record)
+
+    def _before(self, time: float) -> int:
+        """How many records are of a time [s] before this one."""
+        waiting = bisect_left(self._waiting, time, key=lambda record: record.time)
+        there = self._draft or self.path
+        if waiting or not self._written or there is None:
+            return self._written + waiting
+        import h5py  # a file is asked only if it must be
+
+        with h5py.File(there) as file:
+            return int(np.searchsorted(file["time"][: self._written], time))
 
     def flush(self) -> None:
         """Bring what waits in memory into the file, so that it survives the end of the process."""
@@ -285,7 +292,6 @@ class Writer:
             if self._written > self._flushed[0]:
                 self._waiting.clear()
                 self._written, self._last = self._flushed
-                del self._times[self._written :]
             raise
         self._written = last
         self._waiting.clear()
