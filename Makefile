@@ -47,7 +47,7 @@ format: $(VENV)/.dev
 
 clean:
 	rm -rf $(VENV) demo docs/_build docs/api docs/gallery .mypy_cache .pytest_cache .ruff_cache \
-		.import_linter_cache .hypothesis .benchmarks
+		.import_linter_cache .hypothesis
 
 $(BIN)/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
