@@ -18,7 +18,7 @@ from campaigns.harness import Ended, Tally, child, command, left_over, warm
 from campaigns.kills import SWEEP, unreadable
 
 SHORT = ("--set", "feed.distance=3 mm", "wire.nodes=24", "navigate.method=none")
-LONG = ("--set", "solver.time_step=1 ms", "navigate.method=none")
+LONG = ("--set", "solver.time_step=0.1 ms", "navigate.method=none")
 
 
 def process(folder: Path, *words: object, patience: float = 1800.0, **environment: str) -> Ended:
