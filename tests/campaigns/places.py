@@ -101,9 +101,8 @@ def caches(tally: Tally, folder: Path) -> None:
     (folder / "temporary").mkdir()
     own = {**nowhere, "TMPDIR": str(folder / "temporary")}
     tally.take("home that cannot be written", process(folder, *run, "--out", "home", **own))
-    tally.take(
-        "read-only cache", process(folder, *run, "--out", "ro", **own, MAGWIRE_CACHE="/proc")
-    )
+    unwritable = {**own, "MAGWIRE_CACHE": "/proc"}
+    tally.take("read-only cache", process(folder, *run, "--out", "ro", **unwritable))
     modes = {path.stat().st_mode & 0o777 for path in (folder / "temporary").glob("magwire-*")}
     if modes != {0o700}:
         tally.fault(f"the cache for want of a home has the modes {modes}")
