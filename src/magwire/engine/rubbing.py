@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from magwire.engine.plant import Plant
 from magwire.engine.point import Point
 from magwire.engine.sampling import unsampled_stiffness
-from magwire.engine.sensitivity import Output, loads_of, outcome
+from magwire.engine.sensitivity import Output, derivative
 from magwire.errors import ConvergenceError, InputError
 from magwire.kernels.arrays import Friction, Motion, Wall
 from magwire.kernels.assembly import FIRST, assemble
@@ -282,20 +282,21 @@ def goes_on(plant: Plant, output: Output, wrt: Course, change: Change) -> Array:
         )
     held = Rubbing(plant)
     point = held.point
-    loads, *_ = loads_of(point, wrt)
-    direction = 1.0 if change == "rising" else -1.0
     if not plant.model[2].friction or point.mouth.held == len(point.state.q) - 1:
-        return outcome(point, output, wrt)
+        return derivative(point, output, wrt)
+    direction = 1.0 if change == "rising" else -1.0
     lead = np.zeros(point.state.q.shape)
     if wrt == "feed":
         lead[point.mouth.held - 1 : point.mouth.held + 1, :3] = point.system.guide.direction
     elif wrt == "twist":
         lead[point.mouth.held - 1, 3] = 1.0
     lead = direction * lead.ravel()
-    moved = np.stack([
-        direction * held.goes_on(direction * load.ravel(), lead) for load in loads
-    ]).reshape(loads.shape)  # fmt: skip
-    return outcome(point, output, wrt, moved)
+
+    def respond(_: Point, loads: Array) -> Array:
+        moved = [direction * held.goes_on(direction * load.ravel(), lead) for load in loads]
+        return np.stack(moved).reshape(loads.shape)
+
+    return derivative(point, output, wrt, respond)
 
 
 def _diagonal(matrix: Any) -> Any:

@@ -7,6 +7,7 @@ inverse of its part, so the right-hand sides come from differences of gradients 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Literal, get_args
 
 import numpy as np
@@ -26,23 +27,23 @@ Array = NDArray[np.float64]
 Output = Literal["tip", "positions", "tip_direction"]
 Input = Literal["field", "inputs", "gradient", "feed", "twist", Parameter]
 
+Response = Callable[[Point, Array], Array]
+
 INPUT_STEP = 1e-5  # of an input, over itself or one, in the difference that stands for its effect
 
 
-def derivative(point: Point, output: Output, wrt: Input) -> Array:
-    """Derivative of an output of an equilibrium by an input; see ``Equilibrium.sensitivity``."""
-    return outcome(point, output, wrt)
+def derivative(point: Point, output: Output, wrt: Input, respond: Response | None = None) -> Array:
+    """Derivative of an output of an equilibrium by an input; see ``Equilibrium.sensitivity``.
 
-
-def outcome(point: Point, output: Output, wrt: Input, moved: Array | None = None) -> Array:
-    """The same, from how the unknowns move, shape [inputs, nodes + 1, 4], if that is known."""
+    ``respond`` says how the unknowns move under loads, both scaled and of the shape [inputs,
+    nodes + 1, 4]; by the tangent stiffness if left out.
+    """
     one_of("sensitivity", "output", output, get_args(Output))
     one_of("sensitivity", "wrt", wrt, get_args(Input))
     system, held = point.system, point.mouth.held
     length = system.wire.length
-    loads, shape, unit = loads_of(point, wrt)
-    if moved is None:
-        moved = _solve(point, loads)
+    loads, shape, unit = _loads(point, wrt)
+    moved = (respond or _solve)(point, loads)  # [inputs, nodes + 1, 4], scaled
     if wrt == "feed":
         moved[:, : held + 1, :3] = system.guide.direction
     elif wrt == "twist":
@@ -57,7 +58,7 @@ def outcome(point: Point, output: Output, wrt: Input, moved: Array | None = None
     return result.reshape(*result.shape[:-1], *shape)
 
 
-def loads_of(point: Point, wrt: Input) -> tuple[Array, tuple[int, ...], float]:
+def _loads(point: Point, wrt: Input) -> tuple[Array, tuple[int, ...], float]:
     """Derivatives of the gradient by the inputs, shape [inputs, nodes + 1, 4]; their shape; unit.
 
     The unit is what one scaled input is worth in SI.

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from magwire.actuate import Actuator
 from magwire.errors import InputError, array, finite, numbers, positive
+from magwire.navigate.knots import between, rising, spaced
 
 Array = NDArray[np.float64]
 Names = tuple[tuple[str, str], ...]
@@ -38,27 +39,20 @@ class InputSchedule:
     names: Names
 
     def __post_init__(self) -> None:
-        feed = array("InputSchedule", "feed", self.feed, (None,), "m")
+        feed = rising("InputSchedule", "feed", self.feed, "m")
         inputs = array("InputSchedule", "inputs", self.inputs, (len(feed), len(self.names)))
-        if len(feed) == 0 or np.any(np.diff(feed) <= 0.0):
-            raise InputError(
-                "Input feed of InputSchedule must hold at least one value and rise; received "
-                f"{len(feed)} values, the smallest rise {np.diff(feed).min(initial=np.inf):.6g} m."
-            )
         object.__setattr__(self, "feed", feed)
         object.__setattr__(self, "inputs", inputs)
 
     def at(self, feed: ArrayLike) -> Array:
         """Inputs at feeds, shape (n, m)."""
         where = np.atleast_1d(numbers("InputSchedule.at", "feed", feed))
-        columns = [np.interp(where, self.feed, column) for column in self.inputs.T]
-        return np.stack(columns, axis=1)
+        return between(self.feed, self.inputs, where)
 
     def resampled(self, step: float) -> InputSchedule:
         """The schedule with knots every ``step`` [m] of feed, and at its end."""
         positive("InputSchedule.resampled", "step", step, "m")
-        first, last = float(self.feed[0]), float(self.feed[-1])
-        knots = np.append(np.arange(first, last - 1e-9 * step, step), last)
+        knots = spaced(self.feed, step)
         return InputSchedule(knots, self.at(knots), self.names)
 
     def scaled(self, factor: float) -> InputSchedule:
@@ -69,14 +63,8 @@ class InputSchedule:
         InputError
             If one of them is no strength, but where a magnet is.
         """
-        finite("InputSchedule.scaled", "factor", factor)
-        posed = [name for name, unit in self.names if unit in ("m", "")]
-        if posed and factor != 1.0:
-            raise InputError(
-                f"Input factor of InputSchedule.scaled must be 1 where {posed[0]} says how a "
-                f"magnet lies; received {factor:g}."
-            )
-        return InputSchedule(self.feed, factor * self.inputs, self.names)
+        inputs = scaled("InputSchedule", self.inputs, self.names, factor)
+        return InputSchedule(self.feed, inputs, self.names)
 
     def of(self, actuator: Actuator) -> InputSchedule:
         """The schedule of all inputs of an actuator, in its order; those not named stay idle.
@@ -86,22 +74,55 @@ class InputSchedule:
         InputError
             If the actuator has no input of a name, or has it in another unit.
         """
-        known = {one.name: k for k, one in enumerate(actuator.inputs)}
-        rows = np.tile(np.asarray(actuator.idle, dtype=np.float64), (len(self.feed), 1))
-        for column, (name, unit) in zip(self.inputs.T, self.names, strict=True):
-            if name not in known:
-                raise InputError(
-                    f"Inputs must be those of the actuator, {', '.join(known)}; received {name}."
-                )
-            own = actuator.inputs[known[name]].unit
-            if unit != own:
-                raise InputError(
-                    f"Input {name} of the actuator is {_in_words(own)}; received {_in_words(unit)}."
-                )
-            rows[:, known[name]] = column
-        return InputSchedule(
-            self.feed, rows, tuple((one.name, one.unit) for one in actuator.inputs)
+        inputs = in_order(actuator, self.inputs, self.names)
+        return InputSchedule(self.feed, inputs, named(actuator))
+
+
+def scaled(owner: str, inputs: Array, names: Names, factor: float) -> Array:
+    """Inputs multiplied by a factor, shape (k, m).
+
+    Raises
+    ------
+    InputError
+        If one of them is no strength, but where a magnet is.
+    """
+    finite(f"{owner}.scaled", "factor", factor)
+    posed = [name for name, unit in names if unit in ("m", "")]
+    if posed and factor != 1.0:
+        raise InputError(
+            f"Input factor of {owner}.scaled must be 1 where {posed[0]} says how a magnet lies; "
+            f"received {factor:g}."
         )
+    return factor * inputs
+
+
+def named(actuator: Actuator) -> Names:
+    """Names and units of an actuator's inputs."""
+    return tuple((one.name, one.unit) for one in actuator.inputs)
+
+
+def in_order(actuator: Actuator, inputs: Array, names: Names) -> Array:
+    """All inputs of an actuator, from those with names, shape (k, m); others stay idle.
+
+    Raises
+    ------
+    InputError
+        If the actuator has no input of a name, or has it in another unit.
+    """
+    known = {one.name: k for k, one in enumerate(actuator.inputs)}
+    rows = np.tile(np.asarray(actuator.idle, dtype=np.float64), (len(inputs), 1))
+    for column, (name, unit) in zip(inputs.T, names, strict=True):
+        if name not in known:
+            raise InputError(
+                f"Inputs must be those of the actuator, {', '.join(known)}; received {name}."
+            )
+        own = actuator.inputs[known[name]].unit
+        if unit != own:
+            raise InputError(
+                f"Input {name} of the actuator is {_in_words(own)}; received {_in_words(unit)}."
+            )
+        rows[:, known[name]] = column
+    return rows
 
 
 def _in_words(unit: str) -> str:

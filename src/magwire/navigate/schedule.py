@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from magwire.errors import InputError, array, finite, numbers, positive
+from magwire.errors import array, finite, numbers, positive
+from magwire.navigate.knots import between, rising, spaced
 
 Array = NDArray[np.float64]
 
@@ -41,14 +42,8 @@ class Schedule:
     flux_density: Array
 
     def __post_init__(self) -> None:
-        feed = array("Schedule", "feed", self.feed, (None,), "m")
+        feed = rising("Schedule", "feed", self.feed, "m")
         flux = array("Schedule", "flux_density", self.flux_density, (len(feed), 3), "T")
-        if len(feed) == 0 or np.any(np.diff(feed) <= 0.0):
-            raise InputError(
-                "Input feed of Schedule must hold at least one value and rise; received "
-                f"{len(feed)} values, the smallest rise "
-                f"{np.diff(feed).min(initial=np.inf):.6g} m."
-            )
         object.__setattr__(self, "feed", feed)
         object.__setattr__(self, "flux_density", flux)
 
@@ -65,14 +60,12 @@ class Schedule:
     def at(self, feed: ArrayLike) -> Array:
         """Flux density at feeds, shape (n, 3) [T]."""
         where = np.atleast_1d(numbers("Schedule.at", "feed", feed))
-        columns = [np.interp(where, self.feed, self.flux_density[:, c]) for c in range(3)]
-        return np.stack(columns, axis=1)
+        return between(self.feed, self.flux_density, where)
 
     def resampled(self, step: float) -> Schedule:
         """The schedule with knots every ``step`` [m] of feed, and at its end."""
         positive("Schedule.resampled", "step", step, "m")
-        first, last = float(self.feed[0]), float(self.feed[-1])
-        knots = np.append(np.arange(first, last - 1e-9 * step, step), last)
+        knots = spaced(self.feed, step)
         return Schedule(knots, self.at(knots))
 
     def scaled(self, factor: float) -> Schedule:

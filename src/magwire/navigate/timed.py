@@ -9,8 +9,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from magwire.actuate import Actuator, Uniform
 from magwire.engine.system import System
-from magwire.errors import InputError, array, numbers
-from magwire.navigate.inputs import InputSchedule, Names
+from magwire.errors import array, numbers
+from magwire.navigate.inputs import Names, in_order, named, scaled
+from magwire.navigate.knots import between, rising
 from magwire.navigate.navigator import NavigationError, Prescribed
 
 Array = NDArray[np.float64]
@@ -51,20 +52,15 @@ class TimedInputs:
     names: Names = FIELD
 
     def __post_init__(self) -> None:
-        time = array("TimedInputs", "time", self.time, (None,), "s")
+        time = rising("TimedInputs", "time", self.time, "s")
         inputs = array("TimedInputs", "inputs", self.inputs, (len(time), len(self.names)))
-        if len(time) == 0 or np.any(np.diff(time) <= 0.0):
-            raise InputError(
-                "Input time of TimedInputs must hold at least one value and rise; received "
-                f"{len(time)} values, the smallest rise {np.diff(time).min(initial=np.inf):.6g} s."
-            )
         object.__setattr__(self, "time", time)
         object.__setattr__(self, "inputs", inputs)
 
     def over(self, time: ArrayLike) -> Array:
         """Inputs at times [s], shape (n, m)."""
         when = np.atleast_1d(numbers("TimedInputs.over", "time", time))
-        return np.stack([np.interp(when, self.time, one) for one in self.inputs.T], axis=1)
+        return between(self.time, self.inputs, when)
 
     def at(self, feed: ArrayLike) -> Array:
         """There are none by the feed.
@@ -91,10 +87,8 @@ class TimedInputs:
         InputError
             If one of them is no strength, but where a magnet is.
         """
-        return TimedInputs(self.time, self._rows().scaled(factor).inputs, self.names)
-
-    def _rows(self) -> InputSchedule:
-        return InputSchedule(np.arange(float(len(self.time))), self.inputs, self.names)
+        inputs = scaled("TimedInputs", self.inputs, self.names, factor)
+        return TimedInputs(self.time, inputs, self.names)
 
     def of(self, actuator: Actuator) -> TimedInputs:
         """The same for all inputs of an actuator, in its order; those not named stay idle.
@@ -104,8 +98,8 @@ class TimedInputs:
         InputError
             If the actuator has no input of a name, or has it in another unit.
         """
-        whole = self._rows().of(actuator)
-        return TimedInputs(self.time, whole.inputs, whole.names)
+        inputs = in_order(actuator, self.inputs, self.names)
+        return TimedInputs(self.time, inputs, named(actuator))
 
     def start(self, system: System) -> Prescribed:
         """Steering of a system: by its actuator's inputs, or by a uniform field.

@@ -91,7 +91,8 @@ def steered_records(
                     raise
                 march.go_back(navigator.go_back(seen, failure), update)
                 continue
-            march.steer(_inputs(march, schedule, feeds))
+            ends = (march.step + 1 + np.arange(len(feeds))) * march.time_step
+            march.steer(_inputs(schedule, feeds, ends))
         step = min(every - march.step % every, update - march.step % update)
         converged = march.advance(step)
         if march.step % update == 0 or march.step == march.steps:
@@ -104,11 +105,9 @@ def steered_records(
             return
 
 
-def _inputs(march: March, course: Course, feeds: Array) -> Array:
-    """Inputs at the ends of the next steps, shape (steps, m)."""
-    if isinstance(course, Timed):
-        return course.over((march.step + 1 + np.arange(len(feeds))) * march.time_step)
-    return course.at(feeds)
+def _inputs(course: Course, feed: ArrayLike, time: ArrayLike) -> Array:
+    """Inputs at feeds [m], or at times [s], shape (n, m)."""
+    return course.over(time) if isinstance(course, Timed) else course.at(feed)
 
 
 def _told(march: March, seen: Observation, feeds: Array) -> Observation:
@@ -126,8 +125,7 @@ def _set_out(march: March, navigator: Navigator, update: int) -> None:
     except NavigationError:  # it is told when the march is on
         return
     plant = march.plant
-    first = course.over(0.0) if isinstance(course, Timed) else course.at(seen.feed)
-    plant.inputs = first[0]
+    plant.inputs = _inputs(course, seen.feed, 0.0)[0]
     if plant.released:
         plant.settle(plant.system.step_limits())
 

@@ -98,9 +98,8 @@ class Writer:
         self._attributes = opening_attributes(info, self.layout, magwire.__version__)
         row = sum(v.dtype.itemsize * self._numbers(v) for v in VARIABLES.values())
         self._most = max(1, MOST_WAITING // (row + RECORD_BYTES))
-        self._attributes |= {"status": str(RunStatus.RUNNING), "message": ""} | running_attributes(
-            None
-        )
+        self._attributes |= {"status": RunStatus.RUNNING.value, "message": ""}
+        self._attributes |= running_attributes(None)
         if self.path is not None:
             self._begin(self.path)
 
@@ -159,14 +158,12 @@ class Writer:
         """
         if self.closed:
             return
-        self._attributes |= running_attributes(self._last) | {
-            "status": str(status),
-            "message": message,
-        }
+        ending = {"status": str(status), "message": message}
+        self._attributes |= running_attributes(self._last) | ending
         self.closed = True
         if self.path is not None:
             try:
-                self._commit(self.path, status=str(status), message=message)
+                self._commit(self.path, **ending)
             except OSError as error:
                 raise _unwritable(self.path, error) from None
             finally:

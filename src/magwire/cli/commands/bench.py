@@ -37,7 +37,7 @@ def bench(
     import subprocess
 
     from magwire.errors import whole
-    from magwire.many.processes import ONE_THREAD
+    from magwire.many.children import ONE_THREAD
 
     whole("bench", "--repeats", repeats, minimum=1)
     if read is None and any(os.environ.get(name) != one for name, one in ONE_THREAD.items()):
