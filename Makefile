@@ -26,7 +26,7 @@ demo: $(VENV)/.run
 	@echo "The figure is demo/figure.png (and .svg), the data are in demo/result.nc and result-none.nc."
 
 test: $(VENV)/.dev
-	@$(BIN)/python -m pytest -n 2 --dist loadfile
+	@$(BIN)/python -m pytest -n 2 --dist loadfile --no-loadscope-reorder
 
 lint: $(VENV)/.dev
 	$(BIN)/ruff format --check .

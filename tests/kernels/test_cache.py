@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 
 from magwire.kernels import _jit
+from magwire.kernels.vectors import dot
+from magwire.kernels.wall.barrier import barrier
 
 if sys.platform == "win32":
     pytest.skip("folders of POSIX", allow_module_level=True)
@@ -90,3 +92,10 @@ def test_machine_code_lies_where_the_site_wants_it(tmp_path: Path) -> None:
     assert folder.name == _jit._cache_folder().name  # type: ignore[union-attr]
     assert list(folder.rglob("barrier.barrier-*.nbi"))
     assert list(tmp_path.rglob("*.nbi")) == list(folder.rglob("*.nbi"))
+
+
+def test_a_kernel_for_kernels_is_called_from_python_all_the_same() -> None:
+    """Without the way in that numba compiles, a call from Python would end the process."""
+    assert isinstance(dot, _jit.Inner)
+    assert not isinstance(barrier, _jit.Inner)
+    assert dot((1.0, 2.0, 3.0), (4.0, 5.0, 6.0)) == 32.0

@@ -242,9 +242,9 @@ def test_rest_twist_turns_what_lies_across_and_totals_stay() -> None:
         m1, m2, m3 = parts[0 if s < 0.02 else 1 if s < 0.05 else 2].magnetization
         return (m1 + 1j * m2) * np.exp(1j * angle) * area, m3 * area
 
+    points, weight = np.polynomial.legendre.leggauss(2000)
     for k, (a, b) in enumerate(zip(mesh.station[:-1], mesh.station[1:], strict=True)):
-        s, weight = np.polynomial.legendre.leggauss(2000)
-        found = [density(0.5 * (a + b) + 0.5 * (b - a) * x) for x in s]
+        found = [density(0.5 * (a + b) + 0.5 * (b - a) * x) for x in points]
         across = 0.5 * (b - a) * sum(w * f[0] for w, f in zip(weight, found, strict=True))
         along = 0.5 * (b - a) * sum(w * f[1] for w, f in zip(weight, found, strict=True))
         expected = [across.real, across.imag, along]

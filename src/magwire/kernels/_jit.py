@@ -8,9 +8,10 @@ import stat
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
-from typing import TypeVar
+from typing import TypeVar, cast
 
 import numba
+from numba.core.registry import CPUDispatcher
 
 Function = TypeVar("Function", bound=Callable[..., object])
 
@@ -86,18 +87,46 @@ def compiled_before() -> bool:
     return CACHE is not None and any(CACHE.rglob("march.march-*.nbc"))
 
 
+SHARED = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
+
+
+class Inner(CPUDispatcher):  # type: ignore[misc]
+    """A kernel for kernels, without the way in from Python.
+
+    That way unpacks hundreds of arrays; compiled for every kernel, it took a third of a cold start.
+    Whoever calls such a kernel from Python all the same, as tests do, has it made on the spot.
+    """
+
+    _from_python: Callable[..., object] | None = None
+
+    def __call__(self, *args: object) -> object:
+        if self._from_python is None:
+            kernel = self
+
+            def call(*args: object) -> object:
+                return kernel(*args)
+
+            self._from_python = numba.njit(_nrt=False, **SHARED)(call)
+        return self._from_python(*args)
+
+
 def kernel(function: Function) -> Function:
     """Compile a kernel on first use; cached on disk, free of the GIL, IEEE division.
 
     Without numba's runtime (``_nrt``) arrays are not reference-counted, which costs half of a time
     step; a kernel that allocates memory is refused.
     """
-    return _compiled(function)
+    return _inner(function)
+
+
+def called(function: Function) -> Function:
+    """A kernel that is called from Python, too."""
+    return _compiled(function, _nrt=False)
 
 
 def part(function: Function) -> Function:
     """A kernel that has one caller only: compiled as a part of it, not once more on its own."""
-    return _compiled(function, inline="always")
+    return _inner(function, inline="always")
 
 
 def short(function: Function) -> Function:
@@ -105,14 +134,12 @@ def short(function: Function) -> Function:
 
     A call hands over hundreds of pointers; on the way of every step that is a tenth of its time.
     """
-    return _compiled(function, forceinline=True)
+    return _compiled(function, _nrt=False, forceinline=True)
 
 
 def entry(function: Function) -> Function:
     """Compile what follows references to arrays and calls kernels; cached as they are."""
-    keep = CACHE is not None
-    made: Function = numba.njit(cache=keep, nogil=True, error_model="numpy")(function)
-    return made
+    return _compiled(function)
 
 
 def summing(function: Function) -> Function:
@@ -122,12 +149,17 @@ def summing(function: Function) -> Function:
     the time. Products may be joined to sums without rounding in between; no other liberty is taken
     with the arithmetic.
     """
-    return _compiled(function, fastmath={"reassoc", "contract"})
+    return _inner(function, fastmath={"reassoc", "contract"})
 
 
 def _compiled(function: Function, **more: object) -> Function:
-    keep = CACHE is not None
-    made: Function = numba.njit(cache=keep, nogil=True, error_model="numpy", _nrt=False, **more)(
-        function
-    )
+    made: Function = numba.njit(cache=CACHE is not None, **SHARED, **more)(function)
     return made
+
+
+def _inner(function: Function, **more: object) -> Function:
+    options = {"nopython": True, "no_cpython_wrapper": True, "_nrt": False, **SHARED, **more}
+    made = Inner(py_func=function, targetoptions=options)
+    if CACHE is not None:
+        made.enable_caching()
+    return cast(Function, made)

@@ -15,7 +15,7 @@ from numba import types
 from numba.experimental.structref import _Utils
 from numba.extending import intrinsic
 
-from magwire.kernels._jit import entry, kernel
+from magwire.kernels._jit import called, entry, kernel
 from magwire.kernels.arrays import Array, Index
 from magwire.kernels.glance import GLANCE, glance
 from magwire.kernels.march import Drive, march
@@ -126,7 +126,7 @@ def work_off(like, orders, inertia):
             orders.held[i, c] = p.state.inputs[c]
 
 
-@kernel
+@called
 def count_steps(speed, rate, wanted, time, only, step, slack, counts):
     """Number of time steps of each wire's interval, -1 of a wire that stays as it is.
 
@@ -147,7 +147,7 @@ def count_steps(speed, rate, wanted, time, only, step, slack, counts):
     return most
 
 
-@kernel
+@called
 def lay_out(speed, rate, wanted, time, step, slack, length, orders):
     """Feeds, angles and inputs at the end of every step; a linear course of inputs."""
     for i in range(time.shape[0]):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import cos, sin, sqrt
 
-from magwire.kernels._jit import kernel, part
+from magwire.kernels._jit import called, part
 
 RADIUS, FRAME, ROW = 3, 4, 13
 """A row of a path's table: point (3), radius of the lumen, tangent and two normals (9)."""
@@ -29,7 +29,7 @@ def look_up(table, spacing, place, row):
         row[c] = low + share * (table[below + 1, c] - low)
 
 
-@kernel
+@called
 def look_ahead(paths, spacing, goal, ahead, arc, seen, asked, last, limit, row, frames, out):
     """Numbers that are observed of each wire, and the frame of its path at its tip.
 
@@ -67,7 +67,7 @@ def look_ahead(paths, spacing, goal, ahead, arc, seen, asked, last, limit, row, 
             at += 4
 
 
-@kernel
+@called
 def ask(share, frames, limit, most, only, asked):
     """Change inputs towards those of actions, as fast as they may.
 
@@ -90,7 +90,7 @@ def ask(share, frames, limit, most, only, asked):
             asked[i, c] += min(max(wanted - asked[i, c], -most), most)
 
 
-@kernel
+@called
 def settle(only, failed, taken, actions, before, arc, goal, force, weights, reward, ended):
     """Reward each wire for what it did, and see whether its episode is over.
 

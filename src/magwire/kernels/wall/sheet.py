@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 from numpy.typing import NDArray
 
-from magwire.kernels._jit import kernel
+from magwire.kernels._jit import called, kernel
 from magwire.kernels.vectors import combine, dot
 
 BRICK = 4
@@ -288,7 +288,7 @@ def sheet_jet(sheet, x, y, z):
     return g, safe, combine(1.0, n, 3.0 * past * past, m), h
 
 
-@kernel
+@called
 def splines(values, rows, places, out):
     """Value of the splines of some bricks at points of them.
 
@@ -311,7 +311,7 @@ def splines(values, rows, places, out):
         out[m] = spline_value(values[rows[m]], (i * WIDE + j) * WIDE + k, t)
 
 
-@kernel
+@called
 def steepest(values, finer, mouth, mouths, least):
     """Largest slope of the splines, looked for at the corners and in the middle of each cell.
 
