@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 import magwire as mw
-from magwire.engine.words import equilibrium_words, system_words
 
 AHEAD = mw.Lumen.straight(0.1, 3e-3)
 ASIDE = mw.Lumen.through([[0.02, 0, 0], [0.04, 0.02, 0], [0.05, 0.05, 0]], 2e-3)
@@ -52,7 +51,7 @@ def test_feeds() -> None:
 
 def test_what_is_simulated() -> None:
     simulation = mw.Simulation(WIRE, AHEAD, gravity=(0.0, 0.0, -9.81), tip_load=(1e-3, 0.0, 0.0))
-    lines = system_words(simulation.system, "Simulation").splitlines()
+    lines = repr(simulation).splitlines()
     assert lines[0] == "Simulation of"
     assert "  <Lumen: tube of 100 mm, radius 3 mm>" in lines
     assert "  inputs Bx [T], By [T], Bz [T]" in lines
@@ -61,7 +60,7 @@ def test_what_is_simulated() -> None:
 
 
 def test_an_equilibrium() -> None:
-    words = equilibrium_words(mw.Simulation(WIRE, AHEAD).equilibrium(0.02))
+    words = repr(mw.Simulation(WIRE, AHEAD).equilibrium(0.02))
     assert words == (
         "<Equilibrium: stable, 20 mm inserted, tip at (20, 0, 0) mm, smallest clearance 2.4 mm, "
         "force of the wall 0 mN on the wire and 0 mN on the tip>"

@@ -18,7 +18,6 @@ from magwire.engine.plant import Plant
 from magwire.engine.record import Motion, RunInfo
 from magwire.engine.statics import Equilibrium, find_equilibrium
 from magwire.engine.system import Release, System
-from magwire.engine.words import system_words
 from magwire.errors import InputError, array, instance, offering, one_of, positive
 from magwire.field import FieldSource, UniformField, as_field
 from magwire.interrupt import held_back_interrupt
@@ -125,7 +124,7 @@ class Simulation:
             )
 
     def __repr__(self) -> str:
-        return system_words(self.system, "Simulation")
+        return self.system.called("Simulation")
 
     @property
     def field(self) -> FieldSource:

@@ -18,12 +18,12 @@ from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.engine.tip import tip_direction
 from magwire.engine.uneven import Settled, settle
-from magwire.engine.words import equilibrium_words
 from magwire.errors import ConvergenceError, InputError, array, finite, within
 from magwire.field import FieldSource
 from magwire.kernels.arrays import Mouth, State
 from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.hinge import transport
+from magwire.units import show
 
 Array = NDArray[np.float64]
 FEWEST = 4  # nodes past the guide of a wire whose last edge is held
@@ -67,7 +67,16 @@ class Equilibrium:
     point: Point = field(repr=False)
 
     def __repr__(self) -> str:
-        return equilibrium_words(self)
+        x, y, z = (1e3 * self.tip).tolist()
+        clearance = self.clearance[np.isfinite(self.clearance)]
+        least = show(float(clearance.min()), "length") if len(clearance) else "none to tell"
+        force = float(np.linalg.norm(self.wall_force, axis=1).sum())
+        kind = "stable" if self.stable else "unstable"
+        return (
+            f"<Equilibrium: {kind}, {show(self.feed, 'length')} inserted, tip at "
+            f"({x:.4g}, {y:.4g}, {z:.4g}) mm, smallest clearance {least}, force of the wall "
+            f"{show(force, 'force')} on the wire and {show(self.tip_force, 'force')} on the tip>"
+        )
 
     @property
     def tip(self) -> Array:

@@ -15,7 +15,6 @@ from magwire.contact import Barrier, Friction, WallMotion
 from magwire.contact.motion import STRAIN
 from magwire.engine.record import UNIFORM_INPUTS, Scales, patch_length
 from magwire.engine.wall import DEEPEST, Firmness, by_place, divide, divide_bed, fit
-from magwire.engine.words import system_words
 from magwire.errors import InputError, array, instance, nonnegative, one_of
 from magwire.field import FieldSource, UniformField, as_field
 from magwire.kernels.arrays import JET, Bed, Bulges, Guide, Rod, State, Tube, Wall, Work
@@ -28,6 +27,7 @@ from magwire.kernels.sources.table import Sources, new_strength
 from magwire.kernels.wall.traction import CONTACT
 from magwire.lumen import Lumen
 from magwire.lumen.bulge import Bulge, largest
+from magwire.units import show
 from magwire.wire import Mesh, Wire, lay_out
 
 Array = NDArray[np.float64]
@@ -113,7 +113,21 @@ class System:
         self._check_edges()
 
     def __repr__(self) -> str:
-        return system_words(self, "System")
+        return self.called("System")
+
+    def called(self, name: str) -> str:
+        """Wire, lumen and what acts on the wire, as text of a few lines that begins with a name."""
+        acting = [f"damping {show(self.damping, 'rate')}"]
+        if any(self.gravity):
+            acting.append(f"gravity {show(math.hypot(*self.gravity), 'acceleration')}")
+        if any(self.tip_load):
+            acting.append(f"tip load {show(math.hypot(*self.tip_load), 'force')}")
+        acting += [repr(one) for one in (self.friction, *self.wall_motion) if one is not None]
+        wire = repr(self.wire).replace("\n", "\n  ")
+        inputs = ", ".join(f"{name} [{unit}]" for name, unit in self.input_names)
+        lines = [wire, repr(self.lumen), repr(self.contact), f"background {self.background!r}"]
+        lines += [f"inputs {inputs}", ", ".join(acting)]
+        return "\n  ".join([f"{name} of", *lines])
 
     def _check_strain(self) -> None:
         """Refuse displacements of the tissue that together would fold it."""

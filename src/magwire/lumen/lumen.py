@@ -27,7 +27,7 @@ from magwire.lumen.names import meant
 from magwire.lumen.search import Search
 from magwire.lumen.sheet import Sheet
 from magwire.lumen.tree import join
-from magwire.lumen.words import lumen_words
+from magwire.lumen.words import tree_words, tube_words
 
 if TYPE_CHECKING:
     from magwire.vessel import Spot
@@ -92,7 +92,12 @@ class Lumen:
             )
 
     def __repr__(self) -> str:
-        return lumen_words(self)
+        if not self.branches:
+            return "<Lumen: open space, no wall>"
+        count, radii = len(self.branches), self.radius_range
+        if self.paths:
+            return tree_words(count, radii, self.outlets, self.target)
+        return tube_words(count, self.length, radii)
 
     def __getstate__(self) -> dict[str, Any]:
         """For pickle, which knows no read-only mappings."""

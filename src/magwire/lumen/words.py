@@ -2,34 +2,33 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from magwire.units import show
-
-if TYPE_CHECKING:
-    from magwire.lumen.lumen import Lumen
 
 SHOWN = 4  # names of outlets that are listed
 
 
-def lumen_words(lumen: Lumen) -> str:
-    """What it is: length, radii, entrance; of a tree its outlets and the target."""
-    if not lumen.branches:
-        return "<Lumen: open space, no wall>"
-    low, high = lumen.radius_range
-    radius = show(low, "length") if high - low < 1e-9 * high else _range(low, high)
-    if not lumen.paths:
-        count = len(lumen.branches)
-        what = "tube" if count == 1 else f"{count} branches, the first one"
-        return f"<Lumen: {what} of {show(lumen.length, 'length')}, radius {radius}>"
-    names = [repr(name) for name in lumen.outlets[:SHOWN]]
-    left = len(lumen.outlets) - len(names)
-    more = f" and {left} more" if left else ""
+def tube_words(branches: int, length: float, radii: tuple[float, float]) -> str:
+    """A tube or branches without outlets: how many, how long [m], extreme radii [m]."""
+    what = "tube" if branches == 1 else f"{branches} branches, the first one"
+    return f"<Lumen: {what} of {show(length, 'length')}, radius {_range(*radii)}>"
+
+
+def tree_words(
+    branches: int, radii: tuple[float, float], outlets: Sequence[str], target: str | None
+) -> str:
+    """A tree: how many branches, smallest and largest radius [m], where it may be left."""
+    left = len(outlets) - SHOWN
+    names = ", ".join(repr(name) for name in outlets[:SHOWN])
+    more = f" and {left} more" if left > 0 else ""
     return (
-        f"<Lumen: tree of {len(lumen.branches)} branches, radius {radius}; outlets "
-        f"{', '.join(names)}{more}; target {lumen.target!r}>"
+        f"<Lumen: tree of {branches} branches, radius {_range(*radii)}; outlets {names}{more}; "
+        f"target {target!r}>"
     )
 
 
 def _range(low: float, high: float) -> str:
+    if high - low < 1e-9 * high:
+        return show(low, "length")
     return f"{show(low, 'length')} to {show(high, 'length')}"

@@ -30,7 +30,7 @@ def verify(
     force
         Overwrite what is there.
     """
-    from magwire.evidence.verify import report
+    from magwire.evidence.verify import page, report
 
     claim = nullcontext() if out is None else occupied(out, force=force)  # better before the work
     with claim:
@@ -38,6 +38,6 @@ def verify(
         result = report.show(only or tuple(report.GROUPS), full=full)
         if out is not None:
             with writing_to(out):
-                for path in report.save(result, out):
+                for path in page.save(result, out):
                     say(str(path))
     return 0 if result.passed else 1

@@ -6,10 +6,12 @@ import base64
 import io
 from html import escape
 from itertools import cycle, groupby
+from pathlib import Path
 from typing import Any
 
 from magwire.evidence.verify.evidence import NODES, ORDER_TOLERANCE, Curve, Line
-from magwire.evidence.verify.report import Entry, Group, Report, numbers
+from magwire.evidence.verify.report import Entry, Group, Report, numbers, to_json
+from magwire.files import write_whole
 
 STYLE = """
 body { font: 14px/1.5 system-ui, sans-serif; color: #22303c; margin: 2em auto; max-width: 1200px;
@@ -31,6 +33,14 @@ NUMBERS = ("reference", "magwire", "error", "tolerance", "order")
 POINTS = {"ms": 3.0, "mfc": "none", "mew": 0.8}
 WIDTH, HEIGHT = 95.0, 66.0
 """Of a plot [mm]."""
+
+
+def save(report: Report, folder: Path) -> list[Path]:
+    """Write ``verify.html`` and ``verify.json`` into a folder that is there; the files."""
+    contents = {"verify.html": to_html(report), "verify.json": to_json(report)}
+    for name, text in contents.items():
+        write_whole(folder / name, text)
+    return [folder / name for name in contents]
 
 
 def to_html(report: Report) -> str:

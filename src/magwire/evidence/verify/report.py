@@ -11,13 +11,11 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from importlib import import_module
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import magwire
 from magwire.errors import InputError
 from magwire.evidence.verify.evidence import NODES, Curve, Line, Raised, Skipped, Verdict
-from magwire.files import write_whole
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -280,13 +278,3 @@ def to_json(report: Report) -> str:
         ],
     }
     return json.dumps(content, indent=1, allow_nan=False) + "\n"
-
-
-def save(report: Report, folder: Path) -> list[Path]:
-    """Write ``verify.html`` and ``verify.json`` into a folder that is there; the files."""
-    from magwire.evidence.verify.page import to_html
-
-    contents = {"verify.html": to_html(report), "verify.json": to_json(report)}
-    for name, text in contents.items():
-        write_whole(folder / name, text)
-    return [folder / name for name in contents]
