@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import ast
 import os
 import subprocess
 import sys
 import tempfile
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -99,3 +101,29 @@ def test_a_kernel_for_kernels_is_called_from_python_all_the_same() -> None:
     assert isinstance(dot, _jit.Inner)
     assert not isinstance(barrier, _jit.Inner)
     assert dot((1.0, 2.0, 3.0), (4.0, 5.0, 6.0)) == 32.0
+
+
+def test_what_magwire_calls_from_python_is_compiled_for_that() -> None:
+    """A kernel for kernels would be compiled once more in every process."""
+    source = Path(_jit.__file__).parents[1]
+    seen, made_on_the_spot = 0, []
+    for file in source.rglob("*.py"):
+        if "kernels" in file.parts:
+            continue
+        tree = ast.parse(file.read_text(encoding="utf-8"))
+        homes = {
+            name.asname or name.name: (node.module, name.name)
+            for node in ast.walk(tree)
+            if isinstance(node, ast.ImportFrom)
+            and (node.module or "").startswith("magwire.kernels")
+            for name in node.names
+        }
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+                module, name = homes.get(node.func.id, (None, ""))
+                if module is not None:
+                    seen += 1
+                    if isinstance(getattr(import_module(module), name), _jit.Inner):
+                        made_on_the_spot.append(f"{file.name}: {name}")
+    assert seen > 50
+    assert made_on_the_spot == []
