@@ -1,11 +1,11 @@
-"""Progress bars."""
+"""Progress bars, and lines where there is no terminal."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from rich.progress import Progress, ProgressColumn
@@ -14,15 +14,32 @@ if TYPE_CHECKING:
 
 WIDTH = 28
 """Of a bar, in characters."""
+EVERY = 10.0
+"""Time between lines where there is no terminal [s]."""
 
 
 def bar(*columns: ProgressColumn) -> Progress:
-    """A progress bar on standard error, if that is a terminal; at its end it is gone."""
+    """A progress bar on standard error; at its end it is gone.
+
+    Where that is no terminal it is printed as a line every ten seconds, so that a log of long work
+    shows how far it is and quick work prints nothing.
+    """
     from rich.console import Console
     from rich.progress import Progress
 
+    class Lines(Progress):
+        said = time.monotonic()
+
+        def update(self, *args: Any, **fields: Any) -> None:
+            super().update(*args, **fields)
+            if time.monotonic() - self.said >= EVERY:
+                self.said = time.monotonic()
+                self.console.print(*self.get_renderables())
+
     console = Console(stderr=True)
-    return Progress(*columns, console=console, disable=not console.is_terminal, transient=True)
+    if console.is_terminal:
+        return Progress(*columns, console=console, transient=True)
+    return Lines(*columns, console=Console(stderr=True, width=120), disable=True)
 
 
 @contextmanager
