@@ -14,9 +14,12 @@ os.environ["MPLBACKEND"] = "agg"  # tests draw without a screen, in subprocesses
 import pytest
 from hypothesis import settings
 
+from magwire.report import progress
+
 # The first call of a kernel may compile it, which takes longer than any deadline for one example.
 settings.register_profile("magwire", deadline=None)
 settings.load_profile("magwire")
+progress.EVERY = float("inf")  # on a slow machine lines of progress would stand among others
 
 
 ROOT = Path(__file__).parent
