@@ -130,7 +130,8 @@ class Friction(NamedTuple):
     and the way between the nodes on either side; load [N+1, 4] normal and normal force; anchor
     [N+1, 3] elastic slip at its beginning; turning, leaning [N+1, 3] displacement of the surface
     per angle about the axis, and as the nodes beside it move along the normal; factor [N+1];
-    slides [N+1].
+    slides [N+1]. tangent: scratch, a row with what is left and right of the diagonal for each of a
+    band; see ``wall.onward``.
     """
 
     static: Array
@@ -148,6 +149,7 @@ class Friction(NamedTuple):
     leaning: Array
     factor: Array
     slides: Flag
+    tangent: Array
 
 
 class Bed(NamedTuple):
