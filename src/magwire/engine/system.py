@@ -400,6 +400,8 @@ class System:
             leaning=np.zeros((nodes, 3)),
             factor=np.ones(nodes),
             slides=np.zeros(nodes, dtype=np.bool_),
+            begun=np.zeros(nodes),
+            ended=np.zeros(nodes),
             tangent=np.zeros((4 * (nodes + 1), FULL)),
         )
         return (arrays,)
