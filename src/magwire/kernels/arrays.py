@@ -130,8 +130,8 @@ class Friction(NamedTuple):
     and the way between the nodes on either side; load [N+1, 4] normal and normal force; anchor
     [N+1, 3] elastic slip at its beginning; turning, leaning [N+1, 3] displacement of the surface
     per angle about the axis, and as the nodes beside it move along the normal; factor [N+1];
-    slides [N+1]; begun, ended [N+1] normal forces as they are at its ends. tangent: scratch, a row with what is left and right of the diagonal for each of a
-    band; see ``wall.onward``.
+    slides [N+1]; begun, ended [N+1] normal forces at its ends. tangent: scratch, a row with what is
+    left and right of the diagonal for each of a band; see ``wall.onward``.
     """
 
     static: Array
