@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 from magwire.contact import Friction
 from magwire.evidence.verify.references.sliding import locked_up
 from magwire.evidence.verify.references.whip import whipped
+from magwire.evidence.verify.ropes import LEAD, THIN, Bend
 from magwire.kernels.frames import update_frames
 from magwire.kernels.history import copy_configuration, copy_state
 from magwire.lumen import Lumen
 from magwire.session import Session
 from magwire.simulation import Simulation
 from magwire.wire import Section, Wire
-from rubbing import LEAD, THIN, Bend
 
 Array = NDArray[np.float64]
 

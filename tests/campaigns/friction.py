@@ -9,8 +9,8 @@ from lagging import buckled, whip
 from magwire.contact import Barrier, Friction
 from magwire.engine.feed import Feed
 from magwire.evidence.verify.references.sliding import torque_arrived
+from magwire.evidence.verify.ropes import THIN, Bend, climbed, rope, rope_pull
 from magwire.simulation import Simulation
-from rubbing import THIN, Bend, climbed, rope, rope_pull
 from wires import L, lumen, paper_wire
 
 PITCH = 3e-3

@@ -12,19 +12,18 @@ from lagging import buckled, whip
 from magwire.contact import Barrier, Friction
 from magwire.engine.feed import Feed
 from magwire.evidence.verify.references.sliding import torque_arrived
-from magwire.simulation import Simulation
-from magwire.wire import Wire
-from rubbing import (
+from magwire.evidence.verify.ropes import (
     THIN,
     Bend,
     climbed,
-    energy,
-    in_balance,
     lying,
     rope,
     rope_pull,
     works,
 )
+from magwire.simulation import Simulation
+from magwire.wire import Wire
+from rubbing import energy, in_balance
 from wires import L, lumen, paper_wire
 
 PULL = 20e-3

@@ -11,9 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.engine.command import Drive
+from magwire.engine.departure import departs
 from magwire.engine.observation import Observation
 from magwire.engine.reaction import reaction, squeeze
 from magwire.engine.record import Record, Totals
+from magwire.engine.rubbing import Rubbing
 from magwire.engine.sampling import SAMPLINGS, mismatch, sample
 from magwire.engine.status import Status
 from magwire.engine.system import System
@@ -295,8 +297,17 @@ class Plant:
 
     @property
     def stable(self) -> bool:
-        """Whether the tangent stiffness, without inertia, is positive definite (P-16)."""
-        return self.survey().stable
+        """Whether the wire stays where it is: see ``Record.stable`` (P-16, P-33)."""
+        return self._stays(self.survey())
+
+    def _stays(self, seen: Survey) -> bool:
+        """Whether it is stable; under friction, where its tangent leaves that open, after a search.
+
+        The search knows no wall that moves; there the wire counts as one that leaves.
+        """
+        if seen.stable or not self._wall.friction or self.system.wall_motion:
+            return seen.stable
+        return not departs(Rubbing(self))
 
     def use(self, source: FieldSource) -> None:
         """Be in another outside field from now on."""
@@ -430,6 +441,6 @@ class Plant:
             insertion_force=seen.push - squeeze(system, state, self.mouth),
             guide_torque=seen.torque,
             newton_iterations=float(iterations),
-            stable=seen.stable,
+            stable=self._stays(seen),
             totals=self.totals,
         )

@@ -172,7 +172,8 @@ class Record:
     newton_iterations
         Per step, mean since the record before.
     stable
-        Whether the tangent stiffness of the state is positive definite.
+        Whether the tangent stiffness of the state is positive definite; under friction, whether
+        there is no direction that the wire would take by itself (P-33).
     totals
         Sums over all steps so far.
     tip_departure

@@ -10,12 +10,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.engine.plant import Plant
 from magwire.engine.point import Point
 from magwire.engine.sampling import unsampled_stiffness
 from magwire.engine.sensitivity import Output, derivative
@@ -24,6 +23,9 @@ from magwire.kernels.arrays import Friction, Motion, Wall
 from magwire.kernels.assembly import FIRST, assemble
 from magwire.kernels.band import WIDTH
 from magwire.kernels.wall.traction import FACTOR, SLIDES, SLIP
+
+if TYPE_CHECKING:
+    from magwire.engine.plant import Plant
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -239,6 +241,30 @@ class Rubbing:
         # At the tip the node after is the tip itself, and both halves of the moment are one edge's.
         return np.concatenate((-lean, pull, lean, moment, moment), axis=1), way
 
+    @cached_property
+    def inertia(self) -> Array:
+        """Mass of all unknowns, that of the ghost and of the tip's angle being none."""
+        rod = self.point.system.rod
+        turning = np.append(rod.inertia, 0.0)[: len(rod.mass), None]
+        whole: Array = np.hstack((np.repeat(rod.mass[:, None], 3, axis=1), turning)).ravel()
+        return whole
+
+    def tangent(self, branches: Branches) -> tuple[Any, Array]:
+        """The tangent with friction of all unknowns, sparse; moves of the surfaces by these."""
+        rubbed, way = self.friction(branches)
+        return (self.stiffness + rubbed).tocsr(), way
+
+    def done(self, moved: Array, way: Array) -> Branches:
+        """What the contacts do as all unknowns move; way: moves of the surfaces by these."""
+        c = self.contacts
+        unit = c.slip / np.maximum(np.linalg.norm(c.slip, axis=1), 1e-300)[:, None]
+        load = np.linalg.norm(c.push, axis=1)
+        goes = np.einsum("kij,kj->ki", way, moved[self._unknowns])
+        forces = (self.walls[1] @ moved).reshape(-1, 4)[c.node, :3]
+        grown = _dot(c.push / load[:, None], forces) / load
+        slides = c.on & (_dot(unit, goes) > c.limit * np.maximum(grown, 0.0))
+        return Branches(slides, grown > 0.0)
+
     def goes_on(self, load: Array, lead: Array) -> Array:
         """How all unknowns move under a load on them while those of the guide are led.
 
@@ -251,19 +277,13 @@ class Rubbing:
 
         c, free = self.contacts, self.free
         branches = Branches(c.on.copy(), np.ones(len(c.node), dtype=bool))
-        unit = c.slip / np.maximum(np.linalg.norm(c.slip, axis=1), 1e-300)[:, None]
-        normal = c.push / np.linalg.norm(c.push, axis=1)[:, None]
         for _ in range(TRIALS):
             rubbed, way = self.friction(branches)
             whole = (self.stiffness + rubbed).tocsc()
             moved = lead.copy()
             right = -load[free] - (rubbed @ lead)[free]
             moved[free] += splu(whole[free, free]).solve(right)
-            goes = np.einsum("kij,kj->ki", way, moved[self._unknowns])
-            forces = (self.walls[1] @ moved).reshape(-1, 4)[c.node, :3]
-            grown = _dot(normal, forces) / np.linalg.norm(c.push, axis=1)
-            slides = c.on & (_dot(unit, goes) > c.limit * np.maximum(grown, 0.0))
-            found = Branches(slides, grown > 0.0)
+            found = self.done(moved, way)
             if found.agree(branches):
                 return moved
             branches = found

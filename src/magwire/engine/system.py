@@ -24,6 +24,7 @@ from magwire.kernels.centreline import LumenArrays, Moving
 from magwire.kernels.newton import Limits
 from magwire.kernels.sources.steer import steer
 from magwire.kernels.sources.table import Sources, new_strength
+from magwire.kernels.wall.onward import FULL
 from magwire.kernels.wall.traction import CONTACT
 from magwire.lumen import Lumen
 from magwire.lumen.bulge import Bulge, largest
@@ -413,6 +414,9 @@ class System:
             leaning=np.zeros((nodes, 3)),
             factor=np.ones(nodes),
             slides=np.zeros(nodes, dtype=np.bool_),
+            begun=np.zeros(nodes),
+            ended=np.zeros(nodes),
+            tangent=np.zeros((4 * (nodes + 1), FULL)),
         )
         return (arrays,)
 

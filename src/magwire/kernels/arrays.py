@@ -130,7 +130,8 @@ class Friction(NamedTuple):
     and the way between the nodes on either side; load [N+1, 4] normal and normal force; anchor
     [N+1, 3] elastic slip at its beginning; turning, leaning [N+1, 3] displacement of the surface
     per angle about the axis, and as the nodes beside it move along the normal; factor [N+1];
-    slides [N+1].
+    slides [N+1]; begun, ended [N+1] normal forces at its ends. tangent: scratch, a row with what is
+    left and right of the diagonal for each of a band; see ``wall.onward``.
     """
 
     static: Array
@@ -148,6 +149,9 @@ class Friction(NamedTuple):
     leaning: Array
     factor: Array
     slides: Flag
+    begun: Array
+    ended: Array
+    tangent: Array
 
 
 class Bed(NamedTuple):
@@ -186,7 +190,7 @@ class State(NamedTuple):
     q [N+1, 4] configuration (x, y, z, theta), and what follows from it along its path: tangent
     [N, 3], length [N], director [N, 3] (reference frame d1), twist [N+1] reference twist. velocity
     [N+1, 4]; guide [2] insertion and twist of the guide; held [1] last node that the guide holds;
-    inputs [m] of the actuator; contact [N+1, 10] what friction remembers of each node, its columns
+    inputs [m] of the actuator; contact [N+1, 11] what friction remembers of each node, its columns
     named in ``wall.traction``; spent [2] energy that friction took so far, and work of a wall that
     moves; clock [1] time, by which such a wall is where it is.
     """

@@ -7,7 +7,6 @@ from math import inf, nan, sqrt
 from magwire.kernels._jit import kernel, part
 from magwire.kernels.arrays import Motion
 from magwire.kernels.assembly import FIRST, assemble
-from magwire.kernels.band import factor
 from magwire.kernels.centreline import FIRST as FIRST_PIECE
 from magwire.kernels.centreline import PIECES, SPACING, spline
 from magwire.kernels.hinge import material_frame
@@ -18,6 +17,7 @@ from magwire.kernels.wall.contact import add_walls
 from magwire.kernels.wall.foundation import at_edge, at_node, pressed_in
 from magwire.kernels.wall.gap import gap_jet, gap_value, slopes
 from magwire.kernels.wall.motion import at_rest, pace
+from magwire.kernels.wall.onward import hold_walls, positive
 
 FINEST = 1.0 / 24.0  # part of an edge that the search for its nearest point passes over, at most
 
@@ -168,7 +168,8 @@ def observe(model, state, mouth, work, forces, clearance, sunk):
     between
         Smallest clearance of all points of the edges, looked for in steps of ``FINEST``.
     stable
-        Whether the tangent stiffness, without inertia, is positive definite.
+        Whether the tangent stiffness, without inertia, is positive definite; with friction, see
+        ``wall.onward.positive``.
     """
     rod, _, wall, lumen = model
     nodes = state.q.shape[0]
@@ -198,6 +199,7 @@ def observe(model, state, mouth, work, forces, clearance, sunk):
         between = nearest_along(wall.bed, rod, lumen, wall, state, j, between)
     if held == nodes - 1:
         return middle, between, True
+    last = 4 * (nodes - held + 1) - 1
+    hold_walls(wall.friction, rod, lumen, wall, state, held, work)
     assemble(model, state, mouth, Motion(0.0, work.target), work.gradient, work.band)
-    stable = factor(work.band, FIRST, 4 * (nodes - held + 1) - 1) < 0
-    return middle, between, stable
+    return middle, between, positive(wall.friction, state, held, work, FIRST, last)

@@ -199,7 +199,7 @@ VARIABLES: dict[str, Variable] = {
     "stable": Variable(
         ("time",),
         "1",
-        "whether the tangent stiffness is positive definite",
+        "whether the tangent stiffness is positive definite; under friction, whether it stays",
         lambda r, _: int(r.stable),
         np.dtype(np.int8),
         (("flag_values", np.array([0, 1], dtype=np.int8)), ("flag_meanings", "unstable stable")),

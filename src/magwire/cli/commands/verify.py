@@ -24,7 +24,8 @@ def verify(
     full
         Run all cases, which takes minutes, and not only the fast ones.
     only
-        Groups to run: elastica, magnetic, twist, dynamics, contact, authors, consistency, engines.
+        Groups to run: elastica, magnetic, twist, dynamics, contact, friction, authors,
+        consistency, engines.
     out
         Folder for the report as verify.html and verify.json; nothing is written if left out.
     force

@@ -1,4 +1,4 @@
-"""Group 6: forces, shapes and fields that the paper's authors published, in an earlier geometry.
+"""Group 7: forces, shapes and fields that the paper's authors published, in an earlier geometry.
 
 Their forces and shapes without a field depend on the geometry alone (P-18), so that the wire
 may be the paper's. X is the push past the tube's entrance, which has a straight entry before it.

@@ -1,4 +1,4 @@
-"""Group 7: two ways to the same number."""
+"""Group 8: two ways to the same number."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Group 8: another engine, MuJoCo's elastic rod, side by side in one run."""
+"""Group 9: another engine, MuJoCo's elastic rod, side by side in one run."""
 
 from __future__ import annotations
 

@@ -26,6 +26,7 @@ GROUPS = {
     "twist": "Twist",
     "dynamics": "Dynamics",
     "contact": "Contact",
+    "friction": "Friction",
     "authors": "The authors' curves",
     "consistency": "Consistency",
     "engines": "Another engine",

@@ -25,9 +25,10 @@ from magwire.kernels.wall.friction import (
 from magwire.kernels.wall.gap import gap_value
 
 # Columns of State.contact: elastic slip, the wall's normal, its force, whether the node slides, how
-# far it has slid, and the factor of its coefficients.
-SLIP, NORMAL, LOAD, SLIDES, SLID, FACTOR = 0, 3, 6, 7, 8, 9
-CONTACT = 10
+# far it has slid, the factor of its coefficients, and how fast the force grew in the last step.
+SLIP, NORMAL, LOAD, SLIDES, SLID, FACTOR, GROWTH = 0, 3, 6, 7, 8, 9, 10
+CONTACT = 11
+MOST = 2.0  # times a normal force that it may be guessed to grow, or shrink, in a step
 SETTLED = 1e-3  # relative change of a normal force at which it is known (P-31)
 SMALL = 1e-3  # of the largest normal force: what is less is known as well as this is
 TURN = 2e-3  # turn of a normal times its coefficient, at which it is known: it tilts the traction
@@ -128,9 +129,18 @@ def _start_at(friction, state, i):
     friction.slides[i] = state.contact[i, SLIDES] > 0.0
 
 
+@kernel
+def guess(size, growth, dt):
+    """A normal force at the end of a step, as it grew in the one before.
+
+    A guess within ``SETTLED`` saves solving the step once more.
+    """
+    return min(max(size + growth * dt, size / MOST), size * MOST)
+
+
 @part
 def begin(rod, lumen, wall, state, carried, held, dt, work):
-    """Begin a step of length dt at a state, with the wall's forces there.
+    """Begin a step of length dt at a state, with the wall's forces as they go on from there.
 
     carried: the state, or where a wall that moves in the step has carried it: the wire slips
     against the wall.
@@ -142,7 +152,8 @@ def begin(rod, lumen, wall, state, carried, held, dt, work):
         _start_at(friction, carried, i)
         n, size = normal_at(friction, work.gradient, i)
         friction.factor[i] = factor_at(friction, row(state.q, i)) if size > 0.0 else 1.0
-        set_load(friction, state, state, i, n, size)
+        friction.begun[i] = size
+        set_load(friction, state, state, i, n, guess(size, state.contact[i, GROWTH], dt))
 
 
 @kernel
@@ -280,7 +291,8 @@ def known(friction, gradient, ahead, held):
     nodes = ahead.q.shape[0]
     largest = 0.0
     for i in range(held + 1, nodes):
-        largest = max(largest, normal_at(friction, gradient, i)[1])
+        friction.ended[i] = normal_at(friction, gradient, i)[1]
+        largest = max(largest, friction.ended[i])
     for i in range(held + 1, nodes):
         n, size = normal_at(friction, gradient, i)
         before = friction.load[i, 3]
@@ -326,11 +338,14 @@ def keep(rod, friction, state, ahead):
         kept = state.contact[i]
         size = friction.load[i, 3] if i > state.held[0] else 0.0
         kept[LOAD], kept[FACTOR] = size, friction.factor[i]
+        kept[GROWTH] = 0.0
         if size == 0.0:
             for c in range(LOAD):
                 kept[c] = 0.0
             kept[SLIDES] = 0.0
             continue
+        if friction.drag == 0.0:
+            kept[GROWTH] = (friction.ended[i] - friction.begun[i]) * friction.rate[0]
         reach, way = reach_at(friction, ahead, i)
         cone, stiffness = cone_at(friction, i)
         slip = (0.0, 0.0, 0.0)
