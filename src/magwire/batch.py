@@ -122,6 +122,7 @@ class Batch:
                 plant.restore(starts[id(wire)])
                 self._starts.append(starts[id(wire)])
             self._plants.append(plant)
+        self._hands = [self._plants[0].hand() for _ in range(self.threads)]
         self._time = np.array([plant.time for plant in self._plants])
         self._lay_out(len(self._plants[0].inputs))
         for i, plant in enumerate(self._plants):
@@ -270,12 +271,13 @@ class Batch:
             )
 
     def _carry_out(self) -> None:
-        orders, body = self._orders, self._plants[0].body
+        orders = self._orders
         orders.next[0] = 0
-        hands = min(self.threads, int(np.count_nonzero(orders.counts >= 0)))
-        busy = [self._pool.submit(carry_out, body, orders, self._inertia) for _ in range(hands - 1)]
+        count = min(self.threads, int(np.count_nonzero(orders.counts >= 0)))
+        mine, *others = self._hands[: max(count, 1)]
+        busy = [self._pool.submit(carry_out, hand, orders, self._inertia) for hand in others]
         try:
-            carry_out(body, orders, self._inertia)
+            carry_out(mine, orders, self._inertia)
         finally:
             for thread in busy:
                 thread.exception()  # waits for it
@@ -288,6 +290,16 @@ class Batch:
         self._orders.counts[:] = -1
         self._orders.counts[list(chosen)] = 0
         self._carry_out()
+
+    @property
+    def crew(self) -> tuple[Array, Array, Array, Array]:
+        """What was seen of the wires and where their guides are, and units; not to be changed.
+
+        See ``kernels.crew.Orders``: scaled, shape (n, SEEN) and (n, 2), and units of length [m] and
+        force [N], shape (n,). ``observe`` is for others than kernels.
+        """
+        orders = self._orders
+        return orders.seen, orders.guide, self._length, self._force
 
     def observe(self) -> Sight:
         """What can be seen of all wires now; no compiled code is called for it."""

@@ -142,9 +142,10 @@ class Plant:
         self.model = (system.rod, self.field, self._wall, lumen)
         limits, path = system.step_limits(), system.path_arrays._replace(moving=moving)
         self._tolerance = limits.tolerance
-        self._body = make_body(
-            Parts(self.model, path, system.guide, self.state, self.work, limits, self._tally)
+        self._parts = Parts(
+            self.model, path, system.guide, self.state, self.work, limits, self._tally
         )
+        self._body = make_body(self._parts)
         self._patch = system.patch / system.wire.length
         self._turn = tuple(system.mesh.rest_turn[-1].tolist())
         self._seen = np.zeros(GLANCE)
@@ -159,6 +160,11 @@ class Plant:
     def body(self) -> Body:
         """The wire as compiled code refers to it."""
         body: Body = self._body
+        return body
+
+    def hand(self) -> Body:
+        """The wire with another workspace, for one of several threads; see ``kernels.crew``."""
+        body: Body = make_body(self._parts._replace(work=self.system.new_work()))
         return body
 
     @property

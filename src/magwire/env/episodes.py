@@ -12,20 +12,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from magwire.batch import Batch, Sight, start_of
+from magwire.batch import Batch, start_of
 from magwire.engine.plant import Plant
 from magwire.env import anatomy
 from magwire.env.anatomy import Anatomy
 from magwire.env.picture import SMALL, View
 from magwire.env.task import AHEAD, Task
 from magwire.kernels.guide import place_held
-from magwire.kernels.outlook import ROW, ask, look_ahead, settle
+from magwire.kernels.outlook import ROW, ask, report, settle
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Seen = dict[str, NDArray[Any]]
 
 _AHEAD = np.array(AHEAD)
+_TOLD = ("tip_force", "max_wall_force", "cost", "progress", "success", "branch")
 BOUND = 10.0
 """No observed number is larger; those of a wire in its lumen are around one."""
 WEIGHTS = (10.0, 1.0, 0.2, 0.05, 10.0)
@@ -72,6 +73,7 @@ class Episodes:
         self._arc, self._frame = np.zeros(count), np.zeros((count, 3, 3))
         self._limit = task.input_limit if task.axes == "path" else -task.input_limit
         self._seen, self._row = np.zeros((count, 8)), np.zeros(ROW)
+        self._off = np.zeros((count, 3))
         self._numbered = np.zeros((count, observed(self.inputs)))
         self._views: list[View | None] = [None] * count
         self.reward = np.zeros(count)
@@ -137,7 +139,7 @@ class Episodes:
         ended = self.batch.step(speed, rate, applied, whole, only=only)
         self._last[only] = action[only]
         self._taken += only
-        before, moved = self._arc, np.flatnonzero(only)
+        before, moved = self._arc.copy(), np.flatnonzero(only)
         self._remember(self._look(moved), only)
         force = self.info["tip_force"] / task.force_limit
         over = (self.terminated, self.truncated)
@@ -156,51 +158,45 @@ class Episodes:
         return along(share[:, None], self._frame)[:, 0]
 
     def _look(self, fresh: NDArray[np.int64]) -> Seen:
-        """What is observed of all wires; those in ``fresh`` have changed."""
-        sight = self.batch.observe()
-        arc = np.where(np.isfinite(sight.tip_arc), sight.tip_arc, self._arc)
-        self._arc = np.maximum(arc, 0.0)
-        tip = sight.tip
-        if self.task.noise > 0.0:
-            for i in fresh:
-                tip[i] += self.task.noise * self._chance[i].standard_normal(3)
-        seen: Seen = {"vector": self._numbers(sight, tip).astype(np.float32)}
-        if self.task.image:
-            seen["image"] = self._images(fresh)
-        self._tell(sight, fresh)
-        return seen
+        """What is observed of all wires; those in ``fresh`` have changed.
 
-    def _tell(self, sight: Sight, fresh: NDArray[np.int64]) -> None:
-        """Renew what is told of some wires, in arrays of its own."""
+        Renews what is told of them, in arrays of its own, and the paths' frames at their tips.
+        """
+        n, task = len(self._rows), self.task
+        if task.noise > 0.0:
+            self._off[:] = 0.0
+            for i in fresh:
+                self._off[i] = task.noise * self._chance[i].standard_normal(3)
+        force, largest, cost, progress = (np.empty(n) for _ in range(4))
+        success, branch = np.empty(n, dtype=bool), np.empty(n, dtype=np.int64)
+        vector = np.empty(self._numbered.shape, dtype=np.float32)
+        told = (force, largest, cost, progress, success, branch)
+        way = (self._paths, self._spacing, self._goal, _AHEAD)
+        mine = (self._seen, self._asked, self._last, self._limit)
+        course = (self.batch.crew, task.force_limit, self._off, self._arc)
+        room = (self._row, self._frame, self._numbered)
+        report(*course, told, way, mine, *room, BOUND, vector)
+        self._tell(dict(zip(_TOLD, told, strict=True)), fresh)
+        if not task.image:
+            return {"vector": vector}
+        return {"vector": vector, "image": self._images(fresh)}
+
+    def _tell(self, told: dict[str, NDArray[Any]], fresh: NDArray[np.int64]) -> None:
+        """Take over what is told of some wires; of the others it stays."""
         n = len(self._rows)
-        told: dict[str, NDArray[Any]] = {
-            "tip_force": sight.tip_force,
-            "max_wall_force": sight.patch_force,
-            "cost": np.maximum(sight.patch_force - self.task.force_limit, 0.0),
-            "progress": self._arc / self._goal,
-            "success": self._arc >= self._goal,
-            "branch": sight.branch,
-            "unconverged": np.zeros(n, dtype=bool),
-            "command": np.zeros((n, 2 + self.inputs)),
-        }
+        told["unconverged"] = np.zeros(n, dtype=bool)
+        told["command"] = np.zeros((n, 2 + self.inputs))
         for name, before in self.info.items() if len(fresh) < n else ():
             values = before.copy()
             values[fresh] = told[name][fresh]
             told[name] = values
         self.info = told
 
-    def _numbers(self, sight: Sight, tip: Array) -> Array:
-        """What is observed, shape (n, length of an observation); the paths' frames are renewed."""
-        seen = self._seen
-        seen[:, :3], seen[:, 3:6] = tip, sight.tip_direction
-        seen[:, 6], seen[:, 7] = sight.feed, sight.twist
-        paths = (self._paths, self._spacing, self._goal, _AHEAD)
-        told = (self._arc, seen, self._asked, self._last, self._limit)
-        look_ahead(*paths, *told, self._row, self._frame, self._numbered)
-        return np.minimum(np.maximum(self._numbered, -BOUND), BOUND)
-
     def _remember(self, seen: Seen, moved: Flags) -> None:
         """Keep what is seen, and show what is due: late, and not after every action."""
+        if moved.all() and self.task.delay == 0 and self.task.observe_every == 1:
+            self._history, self._shown = [seen], seen
+            return
         entry = self._copy(self._history[-1])
         for name, values in seen.items():
             entry[name][moved] = values[moved]

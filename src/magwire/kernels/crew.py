@@ -14,13 +14,16 @@ from llvmlite import ir
 from numba import types
 from numba.experimental.structref import _Utils
 from numba.extending import intrinsic
+from numpy import int64
 
-from magwire.kernels._jit import called, entry, kernel
+from magwire.kernels._jit import called, entry, kernel, part
 from magwire.kernels.arrays import Array, Index
 from magwire.kernels.glance import GLANCE, glance
 from magwire.kernels.march import Drive, march
 from magwire.kernels.vectors import row
 from magwire.kernels.wall.gap import balls_value, gap_value
+from magwire.kernels.wall.motion import at_rest
+from magwire.kernels.wall.push import asked_at
 
 SEEN = GLANCE + 3
 """Numbers that are seen of a wire: a glance, then the arc parameter of the tip on the way to the
@@ -88,19 +91,41 @@ def take_number(context, counter):
 
 
 @kernel
-def see(parts, patch, turn, seen):
-    """Fill ``seen`` [SEEN] with what is seen of a wire, scaled."""
-    glance(parts.model, parts.state, parts.work, patch, turn, seen)
-    tip = row(parts.state.q, parts.state.q.shape[0] - 1)
-    g, s, _, _ = gap_value(parts.path, tip[0], tip[1], tip[2])
-    seen[GLANCE], seen[GLANCE + 1] = s, g
-    _, _, branch, _ = balls_value(parts.model[3], tip[0], tip[1], tip[2])
-    seen[GLANCE + 2] = branch
+def branch_at(sheets, lumen, x, known, jet):
+    """Branch of a point, which is remembered if the gap was asked for there; see ``push.query``."""
+    if len(sheets) == 0 and asked_at(x, known):
+        return int64(jet[11])
+    rest = at_rest(lumen.moving, x[0], x[1], x[2])
+    return int64(balls_value(lumen, rest[0], rest[1], rest[2])[2])
 
 
 @kernel
-def work_off(like, orders, inertia):
-    """Carry out orders until none is left; like: the parts of any of the bodies."""
+def see(parts, work, patch, turn, seen):
+    """Fill ``seen`` [SEEN] with what is seen of a wire, scaled."""
+    _, _, wall, lumen = parts.model
+    glance(parts.model, parts.state, work, patch, turn, seen)
+    last = parts.state.q.shape[0] - 1
+    tip = row(parts.state.q, last)
+    g, s, _, _ = gap_value(parts.path, tip[0], tip[1], tip[2])
+    seen[GLANCE], seen[GLANCE + 1] = s, g
+    seen[GLANCE + 2] = branch_at(lumen.sheet, lumen, tip, wall.known[last], wall.jet[last])
+
+
+@part
+def room_of(hand, parts):
+    """A workspace: the hand's, which is in the processor's cache, or a body's own if it is larger.
+
+    Or smaller, or has other inputs.
+    """
+    same = hand.work.gradient.shape[0] == parts.work.gradient.shape[0]
+    if same and hand.work.inputs.shape[0] == parts.work.inputs.shape[0]:
+        return hand.work
+    return parts.work
+
+
+@kernel
+def work_off(hand, orders, inertia):
+    """Carry out orders until none is left; hand: parts with a workspace for this thread alone."""
     while True:
         i = take_number(orders.next)
         if i >= orders.places.shape[0]:
@@ -108,7 +133,8 @@ def work_off(like, orders, inertia):
         count = orders.counts[i]
         if count < 0:
             continue
-        p = parts_at(orders.places[i], like)
+        p = parts_at(orders.places[i], hand)
+        work = room_of(hand, p)
         drive = Drive(
             orders.feed[i, :count],
             orders.twist[i, :count],
@@ -117,9 +143,9 @@ def work_off(like, orders, inertia):
             orders.damping[i],
             inertia,
         )
-        done, status = march(p.model, p.guide, p.state, p.work, p.limits, drive, p.tally)
+        done, status = march(p.model, p.guide, p.state, work, p.limits, drive, p.tally)
         orders.done[i], orders.status[i] = done, status
-        see(p, orders.patch[i], (orders.turn[i, 0], orders.turn[i, 1]), orders.seen[i])
+        see(p, work, orders.patch[i], (orders.turn[i, 0], orders.turn[i, 1]), orders.seen[i])
         for c in range(2):
             orders.guide[i, c] = p.state.guide[c]
         for c in range(p.state.inputs.shape[0]):
@@ -174,6 +200,9 @@ def address_of(body):
 
 
 @entry
-def carry_out(body, orders, inertia):
-    """Carry out orders until none is left; any number of threads may do so at once."""
-    work_off(body.parts, orders, inertia)
+def carry_out(hand, orders, inertia):
+    """Carry out orders until none is left; threads may do so at once, each with a hand of its own.
+
+    hand: a body like the others, of which the workspace is used.
+    """
+    work_off(hand.parts, orders, inertia)

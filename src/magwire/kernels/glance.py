@@ -11,7 +11,7 @@ from magwire.kernels.vectors import combine, dot, norm, row, scale, sub
 from magwire.kernels.wall.contact import add_walls
 from magwire.kernels.wall.foundation import at_node, pressed_in
 from magwire.kernels.wall.motion import pace
-from magwire.kernels.wall.push import query
+from magwire.kernels.wall.push import asked_at, query
 
 GLANCE = 10
 """Numbers of a glance: tip (3), its direction (3), force on the tip, forces of the wall summed over
@@ -76,7 +76,8 @@ def least_clearance(rod, lumen, wall, state, held):
         known = wall.known[i]
         away = sub(x, (known[0], known[1], known[2]))
         if known[3] - fast * norm(away) - rod.offset[i] < least:
-            query(lumen, x, known, wall.jet[i])
+            if not asked_at(x, known):
+                query(lumen, x, known, wall.jet[i])
             d = wall.jet[i, 0] - rod.offset[i]
             least = min(least, d + pressed_in(at_node(wall.bed, i), d, wall.gap))
     return least

@@ -186,12 +186,13 @@ def longest(step, held, nodes):
 def search(model, a, b, mouth, motion, work, limits, aim):
     """Halve the step from a until the energy of b falls enough.
 
-    aim: energy of a, its slope along the step, round-off. Returns the part of the step that was
-    taken, zero if there was none, and energy and smallest clearance of b.
+    aim: energy of a, its slope along the step, round-off, and whether the Hessian of the first b
+    that is tried is wanted. Returns the part of the step that was taken, zero if there was none,
+    energy and smallest clearance of b, and whether its Hessian is in the band.
     """
     rod, _, wall, lumen = model
     held = mouth.held
-    energy, slope, slack = aim
+    energy, slope, slack, ahead = aim
     lower, nearest = inf, inf
     if limits.slide:
         share = min(1.0, FARTHEST / longest(work.step, held, a.q.shape[0]))
@@ -215,15 +216,17 @@ def search(model, a, b, mouth, motion, work, limits, aim):
             if bent and allowed_part(rod, lumen, wall, a.q, work.way, held, leeway) < 1.0:
                 continue
             take_step(a, b, held, 1.0 if bent else share, work.way if bent else work.step)
-            lower, nearest = assemble(model, b, mouth, motion, work.gradient, work.no_band)
+            band = work.band if ahead else work.no_band
+            lower, nearest = assemble(model, b, mouth, motion, work.gradient, band)
             if lower <= energy + ARMIJO * share * slope + slack:
-                return share, lower, nearest
+                return share, lower, nearest, ahead
+            ahead = False
         clear = share
         if blind and not lower < inf:
             blind = False
             clear = allowed_between(rod, lumen, wall, a.q, work.step, held, share)
         share = clear if clear < share else 0.5 * share
-    return 0.0, lower, nearest
+    return 0.0, lower, nearest, False
 
 
 @called
@@ -247,11 +250,13 @@ def newton(model, state, mouth, motion, work, limits):
     level = 0
     energy, nearest, size = 0.0, inf, inf
     status = CONVERGED
+    known = False  # whether gradient and band are those of a
     while status == CONVERGED and not size <= limits.tolerance:
         if iteration > 0 and iteration == limits.iterations:
             status = TOO_MANY_ITERATIONS
             break
-        value, near = assemble(model, a, mouth, motion, work.gradient, work.band)
+        if not known:
+            value, near = assemble(model, a, mouth, motion, work.gradient, work.band)
         if iteration == 0:
             energy, nearest, size = value, near, residual(work.gradient, held)
             if not energy < inf:
@@ -267,8 +272,11 @@ def newton(model, state, mouth, motion, work, limits):
         slope = splat(0.0)
         for i in range(held, a.q.shape[0]):
             slope = slope + load(work.gradient, i, 0) * load(work.step, 4 * (i - held + 1), 0)
-        aim = energy, total(slope), ROUND_OFF * (1.0 + abs(energy))
-        share, energy, near = search(model, a, b, mouth, motion, work, limits, aim)
+        # The Hessian comes almost for free with the gradient; a step this short may be the last.
+        long = longest(work.step, held, a.q.shape[0])
+        ahead = not long < min(limits.step, LAST * nearest)
+        aim = energy, total(slope), ROUND_OFF * (1.0 + abs(energy)), ahead
+        share, energy, near, known = search(model, a, b, mouth, motion, work, limits, aim)
         if share == 0.0:
             status = STALLED
             break
@@ -276,7 +284,7 @@ def newton(model, state, mouth, motion, work, limits):
         nearest = near
         size = residual(work.gradient, held)
         small = min(limits.step, LAST * nearest)
-        if share == 1.0 and size < inf and longest(work.step, held, a.q.shape[0]) < small:
+        if share == 1.0 and size < inf and long < small:
             break
     copy_configuration(a, state, held)
     return status, iteration, factorisations, size, nearest

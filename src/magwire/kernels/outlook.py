@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from math import cos, sin, sqrt
+from math import cos, inf, isfinite, sin, sqrt
 
-from magwire.kernels._jit import called, part
+from numpy import int64
+
+from magwire.kernels._jit import called, entry, kernel, part
+from magwire.kernels.glance import GLANCE
 
 RADIUS, FRAME, ROW = 3, 4, 13
 """A row of a path's table: point (3), radius of the lumen, tangent and two normals (9)."""
@@ -67,7 +70,53 @@ def look_ahead(paths, spacing, goal, ahead, arc, seen, asked, last, limit, row, 
             at += 4
 
 
-@called
+@kernel
+def read_off(crew, limit, off, arc, goal, told, look):
+    """What is told of each wire, and how far it has come on its way.
+
+    crew: what was seen of the wires (n, SEEN) and where their guides are (n, 2), scaled, and their
+    units of length and force; limit: force up to which there is no cost; off: of the tip as it is
+    seen (n, 3); arc: changed where the tip is on its way; told: tip force, largest force, cost,
+    progress, success, branch, filled; look: tip, its direction, feed and twist, filled (n, 8).
+    """
+    seen, guide, length, force = crew
+    at_tip, largest, cost, progress, success, branch = told
+    for i in range(arc.shape[0]):
+        place, gap = seen[i, GLANCE], seen[i, GLANCE + 1]
+        if 0.0 < gap < inf and isfinite(place * length[i]):
+            arc[i] = place * length[i]
+        arc[i] = max(arc[i], 0.0)
+        at_tip[i], largest[i] = seen[i, 6] * force[i], seen[i, 8] * force[i]
+        cost[i] = max(largest[i] - limit, 0.0)
+        progress[i], success[i] = arc[i] / goal[i], arc[i] >= goal[i]
+        branch[i] = int64(seen[i, GLANCE + 2])
+        for c in range(3):
+            look[i, c], look[i, 3 + c] = seen[i, c] * length[i] + off[i, c], seen[i, 3 + c]
+        look[i, 6], look[i, 7] = guide[i, 0] * length[i], guide[i, 1]
+
+
+@kernel
+def within(numbers, bound, out):
+    """Numbers (n, m) of which none is larger than a bound."""
+    for i in range(numbers.shape[0]):
+        for c in range(numbers.shape[1]):
+            out[i, c] = min(max(numbers[i, c], -bound), bound)
+
+
+@entry
+def report(crew, limit, off, arc, told, way, mine, row, frames, numbers, bound, out):
+    """What is told and what is observed of wires: ``read_off``, ``look_ahead`` and ``within``.
+
+    way: of the latter paths, spacing, goal, ahead; mine: seen, asked, last, limit.
+    """
+    paths, spacing, goal, ahead = way
+    look, asked, last, most = mine
+    read_off(crew, limit, off, arc, goal, told, look)
+    look_ahead(paths, spacing, goal, ahead, arc, look, asked, last, most, row, frames, numbers)
+    within(numbers, bound, out)
+
+
+@kernel
 def ask(share, frames, limit, most, only, asked):
     """Change inputs towards those of actions, as fast as they may.
 

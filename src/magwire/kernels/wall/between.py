@@ -17,7 +17,7 @@ from magwire.kernels.scatter import add_block, add_diagonal, add_vector
 from magwire.kernels.vectors import combine, dot, norm, row, sub
 from magwire.kernels.wall.foundation import at_edge
 from magwire.kernels.wall.motion import pace
-from magwire.kernels.wall.push import clear_of_wall, push, query
+from magwire.kernels.wall.push import asked_at, clear_of_wall, push, query
 
 CAREFUL = 2.0  # bulges are sampled: what a chord may lose is taken this many times as much
 
@@ -107,7 +107,7 @@ def sag(lumen, wall, q, j):
     bulge = 0.0
     for i in range(j, j + 2):
         x, known = row(q, i), wall.known[i]
-        if not (x[0] == known[0] and x[1] == known[1] and x[2] == known[2]):
+        if not asked_at(x, known):
             query(lumen, x, known, wall.jet[i])
         here = bulge_at(wall.between.bulges, wall.jet[i])
         if here < 0.0:

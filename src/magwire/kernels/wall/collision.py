@@ -14,7 +14,7 @@ from magwire.kernels.wall.between import clear_edge, keep_off
 from magwire.kernels.wall.foundation import at_node, deepest
 from magwire.kernels.wall.gap import gap_value, slopes
 from magwire.kernels.wall.motion import pace
-from magwire.kernels.wall.push import all_clear, clear_of_wall, query
+from magwire.kernels.wall.push import all_clear, asked_at, clear_of_wall, query
 
 CAUTION = 0.9  # part of the safe distance that one hop uses
 CLOSEST = 0.1  # a step may shrink the clearance to this part of itself, not further
@@ -39,7 +39,7 @@ def free_way(lumen, g, safe, offset):
 def travel(lumen, x, dx, offset, known, jet, limit):
     """Largest part of the step dx, at most ``limit``, that a point x near the wall may take."""
     length = pace(lumen.moving) * norm(dx)
-    if not (x[0] == known[0] and x[1] == known[1] and x[2] == known[2]):
+    if not asked_at(x, known):
         query(lumen, x, known, jet)
     start = free_way(lumen, jet[0], known[3], offset)
     share = 0.0

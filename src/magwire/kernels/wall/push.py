@@ -25,6 +25,12 @@ def query(lumen, x, known, jet):
 
 
 @kernel
+def asked_at(x, known):
+    """Whether what is remembered of the gap is that of this very point."""
+    return x[0] == known[0] and x[1] == known[1] and x[2] == known[2]
+
+
+@kernel
 def clear_of_wall(x, known, fast, reach):
     """Whether a point is known to be farther than ``reach`` from the wall.
 
@@ -56,7 +62,7 @@ def push(lumen, x, stiffness, gap, offset, known, jet, give):
     energy, gradient, hessian
         The energy is +inf if the point is in the wall, as deep as that may give way.
     """
-    if not (x[0] == known[0] and x[1] == known[1] and x[2] == known[2]):
+    if not asked_at(x, known):
         query(lumen, x, known, jet)
     d, n = jet[0] - offset, (jet[1], jet[2], jet[3])
     h = (jet[4], jet[5], jet[6], jet[7], jet[8], jet[9])

@@ -14,7 +14,7 @@ from magwire.kernels.wall.between import clear_edge, keep_off
 from magwire.kernels.wall.foundation import at_edge, at_node, pressed_in
 from magwire.kernels.wall.gap import gap_jet
 from magwire.kernels.wall.motion import pace
-from magwire.kernels.wall.push import clear_of_wall, query
+from magwire.kernels.wall.push import asked_at, clear_of_wall, query
 
 KEPT = 0.5  # part of its clearance that a point keeps
 PASSES = 3  # of pushing a point back: the gap falls by one for each length along its gradient
@@ -26,7 +26,7 @@ def push_back(lumen, x, dx, offset, known, jet, yielding):
 
     yielding: how the wall gives way at the point, and the barrier's activation gap there.
     """
-    if not (x[0] == known[0] and x[1] == known[1] and x[2] == known[2]):
+    if not asked_at(x, known):
         query(lumen, x, known, jet)
     give, gap = yielding
     offset -= pressed_in(give, jet[0] - offset, gap)
