@@ -116,7 +116,7 @@ def report(crew, limit, off, arc, told, way, mine, row, frames, numbers, bound, 
     within(numbers, bound, out)
 
 
-@kernel
+@called
 def ask(share, frames, limit, most, only, asked):
     """Change inputs towards those of actions, as fast as they may.
 
