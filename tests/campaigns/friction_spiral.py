@@ -57,8 +57,8 @@ def row(friction: float, run: mw.Result, strength: float, ahead: float) -> str:
     unit = run.force_scale
     steep, net = slope(angle[late], force[late]), slope(angle[late], force[late] / tip[late])
     return (
-        f"| {friction:g} | {1e3 * strength:g} | {ahead:g} | {steep:.3f} | {net:.3f} | {expected:.3f} | "
-        f"{force[late].min() / small:.3g} | {run.max_push_force / unit:.0f} | "
+        f"| {friction:g} | {1e3 * strength:g} | {ahead:g} | {steep:.3f} | {net:.3f} | "
+        f"{expected:.3f} | {force[late].min() / small:.3g} | {run.max_push_force / unit:.0f} | "
         f"{run.max_insertion_force / unit:.0f} | {run.max_tip_force / unit:.0f} | "
         f"{run.tip_force.mean() / unit:.0f} | {force[-1] / tip[-1]:.3g} |"
     )
