@@ -20,10 +20,9 @@ Array = NDArray[np.float64]
 RADIUS, PITCH, TUBE, THICK = 10e-3, 8e-3, 2e-3, 0.3e-3
 TURNS = 2.5
 FED = TURNS * float(np.hypot(2.0 * np.pi * RADIUS, PITCH))
-COEFFICIENTS = (0.0, 0.1, 0.2, 0.3)
-GUIDES = (0.0, 4e-3)
-"""Flux densities that guide [T]."""
-AHEAD = np.radians(20.0)
+COEFFICIENTS = (0.0, 0.1, 0.3)
+GUIDES = ((0.0, 0.0), (4e-3, 20.0), (4e-3, 60.0), (4e-3, 90.0), (8e-3, 60.0))
+"""Flux densities that guide [T], and by how much they turn ahead of the way at the tip [deg]."""
 
 
 def setup(friction: float) -> mw.Simulation:
@@ -44,7 +43,7 @@ def gone_round(run: mw.Result) -> Array:
     return np.asarray(np.arccos(turns).sum(axis=1))
 
 
-def row(friction: float, run: mw.Result, strength: float) -> str:
+def row(friction: float, run: mw.Result, strength: float, ahead: float) -> str:
     """A line of the table: slopes over the last turn, and forces in EI/L^2.
 
     Slopes of ln(push), and of ln(push over the force on the tip): steering changes the latter as
@@ -58,8 +57,8 @@ def row(friction: float, run: mw.Result, strength: float) -> str:
     unit = run.force_scale
     steep, net = slope(angle[late], force[late]), slope(angle[late], force[late] / tip[late])
     return (
-        f"| {friction:g} | {1e3 * strength:g} | {steep:.3f} | {net:.3f} | {expected:.3f} | "
-        f"{force[late].min() / small:.3g} | {run.max_push_force / unit:.0f} | "
+        f"| {friction:g} | {1e3 * strength:g} | {ahead:g} | {steep:.3f} | {net:.3f} | "
+        f"{expected:.3f} | {force[late].min() / small:.3g} | {run.max_push_force / unit:.0f} | "
         f"{run.max_insertion_force / unit:.0f} | {run.max_tip_force / unit:.0f} | "
         f"{run.tip_force.mean() / unit:.0f} | {force[-1] / tip[-1]:.3g} |"
     )
@@ -70,32 +69,38 @@ def slope(angle: Array, force: Array) -> float:
     return float(np.polyfit(angle, np.log(force), 1)[0])
 
 
-def push(sim: mw.Simulation, strength: float) -> mw.Result:
-    """The wire pushed in, in a field [T] that turns ahead of the tip towards the inside."""
+def push(sim: mw.Simulation, strength: float, ahead: float) -> mw.Result:
+    """The wire pushed in, in a field [T] that turns ahead [deg] of the tip towards the inside.
+
+    Of where the tip is, not of where a wire along the centreline would have it: on the outside of
+    the bend the way is a sixth longer, so that the tip falls behind by half a turn in all.
+    """
     speed, part, dt = 8e-3, 0.5e-3, 0.02
+    along, inside = np.cos(np.radians(ahead)), np.sin(np.radians(ahead))
     with sim.session(time_step=dt, record_every=1e-3 / speed) as session:
-        for feed in np.arange(part, FED + 0.5 * part, part):
-            tangent, inward = frame(feed)
-            field = strength * (np.cos(AHEAD) * tangent + np.sin(AHEAD) * inward)
+        for _ in range(round(FED / part)):
+            tangent, inward = frame(sim, session.observe().tip)
+            field = strength * (along * tangent + inside * inward)
             session.step(feed_speed=speed, duration=part / speed, inputs=field)
     return session.result
 
 
-def frame(feed: float) -> tuple[Array, Array]:
-    """Tangent of the centreline where the tip is, and the direction to the helix' axis."""
-    lumen = setup(0.0).system.lumen
-    curve = lumen.branches[0].curve
-    near = curve.at(np.array([feed - 0.2e-3, feed, feed + 0.2e-3]))[:, :3]
-    tangent = near[2] - near[0]
-    bend = near[2] - 2.0 * near[1] + near[0]
+def frame(sim: mw.Simulation, tip: Array) -> tuple[Array, Array]:
+    """Tangent of the centreline next to the tip, and the direction to the helix' axis."""
+    curve, step = sim.system.lumen.branches[0].curve, 0.2e-3
+    places = np.arange(step, FED + 10e-3, step)
+    points = curve.at(places)[:, :3]
+    k = int(np.argmin(np.linalg.norm(points - tip, axis=1)).clip(1, len(places) - 2))
+    tangent = points[k + 1] - points[k - 1]
+    bend = points[k + 1] - 2.0 * points[k] + points[k - 1]
     return tangent / np.linalg.norm(tangent), bend / np.linalg.norm(bend)
 
 
 def main(coefficients: tuple[float, ...] = COEFFICIENTS) -> None:
     """Print the table, line by line."""
     for friction in coefficients:
-        for strength in GUIDES:
-            print(row(friction, push(setup(friction), strength), strength), flush=True)
+        for guide in GUIDES:
+            print(row(friction, push(setup(friction), *guide), *guide), flush=True)
 
 
 if __name__ == "__main__":

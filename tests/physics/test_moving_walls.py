@@ -7,9 +7,10 @@ import pytest
 
 from magwire.contact import Barrier, Friction, WallMotion
 from magwire.engine.feed import Feed
+from magwire.evidence.verify.ropes import works
 from magwire.session import Session
 from magwire.simulation import Simulation
-from rubbing import energy, works
+from rubbing import energy
 from wires import lumen, paper_wire
 
 BREATH = WallMotion((0.6e-3, 0.6e-3, 0.529e-3), 1.0, 25e-3)  # 1 mm, also out of the bend's plane

@@ -7,10 +7,11 @@ import pytest
 
 from magwire.contact import Barrier, Friction, WallMotion
 from magwire.engine.feed import Feed
+from magwire.evidence.verify.ropes import THIN, Bend, rope, works
 from magwire.lumen import Lumen
 from magwire.simulation import Simulation
 from magwire.wire import Wire
-from rubbing import THIN, Bend, energy, rope, works
+from rubbing import energy
 from wires import lumen, paper_wire
 
 FOUNDATION = 1e8  # [Pa/m]
