@@ -67,8 +67,9 @@ def table(kept: dict[str, Any]) -> str:
     heads = ("task", *kinds, "navigator's lead")
     lines = ["| " + " | ".join(heads) + " |", "| --- " * len(heads) + "|"]
     for name, found in kept.items():
-        policies = [*(found["policies"][kind] for kind in kinds), found["navigator_lead"]]
+        policies, lead = [found["policies"][kind] for kind in kinds], found["navigator_lead"]
         cells = [f"{one['mean']:.2f} ± {one['half_interval']:.2f}" for one in policies]
+        cells.append(f"{lead['mean']:.3f} ± {lead['half_interval']:.3f}")
         lines.append("| " + " | ".join([name, *cells]) + " |")
     return "\n".join(lines) + "\n"
 

@@ -78,9 +78,8 @@ def score_policies(names: Names) -> None:
         means = {kind: policy["mean"] for kind, policy in one["policies"].items()}
         idle = max(means[kind] for kind in ("stand still", "retract", "random"))
         assert idle < means["trained"]
-    leads = {name: one["navigator_lead"] for name, one in kept.items()}
-    behind = [name for name, lead in leads.items() if lead["mean"] < lead["half_interval"]]
-    assert behind == ["Helix"]  # where a policy that looks is better than a plan: the page says why
+        lead = one["navigator_lead"]
+        assert lead["mean"] > lead["half_interval"]
 
 
 CHECKS: dict[str, Callable[[Names], None]] = {

@@ -92,7 +92,7 @@ def test_the_reward_is_what_the_documentation_says() -> None:
     for (_, _, before), (_, reward, info) in itertools.pairwise(told):
         gained = min(info["progress"], 1.0) - before["progress"]
         expected = 10.0 * gained - 0.2 / env.task.actions
-        expected -= 0.05 * min(info["tip_force"] / 1e-5, 10.0)
+        expected -= 0.05 * min((info["tip_force"] + info["cost"]) / 1e-5, 10.0)
         assert reward == pytest.approx(expected + info["success"], abs=1e-12)
 
 

@@ -39,6 +39,21 @@ def test_baselines_come_in_their_order() -> None:
     assert returns["navigator"] > 10.0
 
 
+def test_the_navigator_gets_the_field_that_it_planned() -> None:
+    env = wires(2, scenario="half-circle", input_error=0.2)
+    policy = Navigator()
+    observed, _ = env.reset(seed=[1, 2])
+    assert np.array_equal(env.episodes.measured_factors(), np.ones((2, 3)))
+    for _ in range(40):
+        env.episodes.act(policy(env, observed))
+    seen = env.episodes.batch.observe()
+    (_, plan), *_ = policy._plans.values()
+    factors = env.episodes.measured_factors()
+    assert np.abs(factors - 1.0).max() > 0.1
+    assert np.linalg.norm(seen.inputs, axis=1).min() > 5e-3
+    np.testing.assert_allclose(seen.inputs, plan.at(seen.feed), atol=1e-6)
+
+
 def test_a_linear_policy_is_its_weights() -> None:
     env = wires(2)
     observed, _ = env.reset(seed=0)

@@ -95,6 +95,35 @@ def test_order_and_number_of_threads_do_not_matter() -> None:
             assert equal(mine[order], shuffled)
 
 
+def test_sixty_four_are_what_each_is_alone() -> None:
+    """Bit for bit, in contact, in another order, by one thread and by two."""
+    task = {**TASK, "starts": (0.0, 0.03, 0.05), "goal": 2.0}
+    chance = np.random.default_rng(1)
+    given = chance.uniform(-1.0, 1.0, (10, 64, 5)).astype(np.float32)
+    given[..., 0] = np.abs(given[..., 0])
+    order = chance.permutation(64)
+    plain = WireVectorEnv(64, threads=1, autoreset_mode="Disabled", **task)
+    mixed = WireVectorEnv(64, threads=2, autoreset_mode="Disabled", **task)
+    alone = WireEnv(**task)
+    plain.reset(seed=list(range(64)))
+    mixed.reset(seed=[int(i) for i in order])
+    ours = [plain.step(one) for one in given]
+    for step, one in enumerate(given):
+        theirs = mixed.step(one[order])
+        for mine, shuffled in zip(ours[step][:4], theirs[:4], strict=True):
+            assert equal(mine[order], shuffled)
+        assert equal(ours[step][4]["max_wall_force"][order], theirs[4]["max_wall_force"])
+    assert ours[-1][4]["max_wall_force"].max() > 1e-4
+    for i in range(64):
+        alone.reset(seed=i)
+        for step, one in enumerate(given):
+            observed, reward, *ended, info = alone.step(one[i])
+            told = ours[step]
+            assert np.array_equal(observed, told[0][i])
+            assert [reward, *ended] == [values[i] for values in told[1:4]]
+            assert info["max_wall_force"] == told[4]["max_wall_force"][i]
+
+
 def test_masks_and_seeds_that_do_not_fit_are_refused() -> None:
     env = WireVectorEnv(2, **TASK)
     with pytest.raises(InputError, match="reset_mask of WireVectorEnv must be booleans"):

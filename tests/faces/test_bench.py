@@ -87,6 +87,7 @@ def test_environments_have_a_row_each(monkeypatch: pytest.MonkeyPatch) -> None:
     assert deep["newton"] >= 1.0
     rows = [{"what": name, "threads": 1, "samples": [s]} for name, s in (("a", deep), ("b", whole))]
     assert by_environment(rows).row_count == 2
+    assert learning.resets(1, new=False)["rate"] > 0.0
 
 
 def test_keys_and_pictures_have_a_table() -> None:

@@ -25,9 +25,12 @@ import magwire as mw
 from browsers import started
 from magwire.actuate import Helmholtz, Pair
 from magwire.cli import main
+from magwire.contact.motion import gone
 from magwire.drive import DEAD_MAN, DriveError, Outcome, serve
 from magwire.drive.doors import Doors
 from magwire.navigate import NavigationError
+from magwire.view.content import motions
+from records import BREATHING
 
 pytest.importorskip("websockets", reason="websockets is not installed")
 
@@ -469,8 +472,19 @@ class Opened:
 
 
 def test_keys_drive_the_wire_and_it_is_seen(chromium: Any, tmp_path: Path) -> None:
-    served = Served(tmp_path, simulation(), limit=2e-4)
+    served = Served(tmp_path, simulation(), limit=1e-3)
     shown = Opened(chromium(), served)
+    words = shown.page.locator(".status")
+    assert words.inner_text() == "Hold ↑ to feed the wire; F has the navigator steer."
+    limit = shown.page.locator(".limit")
+    for absurd in ("-3", "0", "1e99", ""):
+        limit.fill(absurd)
+        limit.press("Enter")
+        assert "it stays at 1.00 mN" in words.inner_text()
+        assert limit.input_value() == "1"
+    limit.fill("0.2")
+    limit.press("Enter")  # keys drive from here on
+    shown.until("magwire.picture.limit === 2e-4")
     before = shown.picture(".scene canvas")
     arm = shown.picture(".arm-frontal canvas")
     assert len(np.unique(before.reshape(-1, 3), axis=0)) > 50
@@ -482,11 +496,11 @@ def test_keys_drive_the_wire_and_it_is_seen(chromium: Any, tmp_path: Path) -> No
     assert stopped["wallForce"] >= stopped["limit"] == 2e-4
     shown.until("magwire.gauge.level == 'red'")
     shown.page.keyboard.up("ArrowUp")
+    assert np.abs(shown.picture(".scene canvas") - before).max() > 100.0
     shown.page.keyboard.down("s")  # back is allowed
     shown.until(f"magwire.picture.feed < {stopped['feed']} - 1e-3")
     shown.page.keyboard.up("s")
     shown.until("magwire.picture.rate == 0 || magwire.picture.message == ''")
-    assert np.abs(shown.picture(".scene canvas") - before).max() > 100.0
     # The gauge is the engine's force of the same step, and the picture its wire.
     same = shown.ask(
         "({force: magwire.gauge.force, wall: magwire.picture.wallForce, points: magwire.points(),"
@@ -545,6 +559,8 @@ def test_a_slow_painter_gives_way(chromium: Any, tmp_path: Path) -> None:
         assert len(np.unique(picture.reshape(-1, 3), axis=0)) > 50
         assert shown.ask("document.querySelectorAll('.scene canvas').length") == 1
 
+    shown.until("magwire.picture.rate === 0 && !magwire.cockpit.fresh")
+    shown.ask("(magwire.cockpit.pace.spans = [], 0)")  # of pictures so far, quick or slow
     painted(2, "canvas")
     words = shown.page.locator(".way")
     assert words.inner_text() == "plain strokes"
@@ -559,6 +575,41 @@ def test_a_slow_painter_gives_way(chromium: Any, tmp_path: Path) -> None:
     shown.ask("[...Array(36)].forEach(() => magwire.cockpit.pace.took(60))")
     painted(2, "canvas")
     assert words.inner_text() == "plain strokes"
+    shown.page.click(".end")
+    shown.until("magwire.cockpit.done")
+    assert not shown.faults
+    shown.page.close()
+    served.end()
+
+
+def test_roadmaps_stay_where_they_were_taken(chromium: Any, tmp_path: Path) -> None:
+    """A wall that moves does so in 3D; the C-arms' overlay is that of the wall at rest, as said.
+
+    The page is told of a wall that moves; the engine's rests, which needs no other kernels.
+    """
+    served = Served(tmp_path, simulation())
+    shown = Opened(chromium(), served)
+    arms = shown.page.locator(".arm > span")
+    assert arms.all_inner_texts() == ["frontal", "lateral"]
+    told = json.dumps(motions(BREATHING))
+    shown.ask(
+        f"(() => {{ const {{ cockpit }} = magwire, world = {{ ...cockpit.world, motions: {told} }};"
+        " cockpit.scene.setWorld({ ...world, path: [] });"
+        " cockpit.arms.forEach((arm) => arm.setWorld(world)); })()"
+    )
+    assert arms.all_inner_texts() == [f"{name}, roadmap at rest" for name in ("frontal", "lateral")]
+    overlay = "magwire.cockpit.arms.map((arm) => arm.still.toDataURL())"
+    wall = "[...magwire.cockpit.scene.mesh.positions]"
+    roadmaps, rest = shown.ask(overlay), shown.ask("magwire.cockpit.scene.moving.corners")
+    shown.page.keyboard.down("w")
+    shown.until("magwire.picture.time > 1.0")
+    shown.page.keyboard.up("w")
+    at_once = f"(magwire.cockpit.show(), [magwire.picture.time, {wall}])"  # of the same picture
+    then, corners = shown.ask(at_once)
+    moved = gone(BREATHING, np.asarray(rest), np.zeros(3), then)
+    np.testing.assert_allclose(np.reshape(corners, (-1, 3)), moved, atol=1e-6)
+    assert np.abs(moved - rest).max() > 1e-4
+    assert shown.ask(overlay) == roadmaps
     shown.page.click(".end")
     shown.until("magwire.cockpit.done")
     assert not shown.faults

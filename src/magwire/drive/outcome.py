@@ -49,7 +49,7 @@ class Outcome:
             "path of the tip": f"{1e3 * account.path:.1f} mm",
             "peak wall force": f"{1e3 * account.peak_force:.3g} mN",
             "wall force over time": f"{1e3 * account.impulse:.3g} mN s",
-            "work of the guide": f"{1e6 * account.work:.3g} uJ",
+            "work of the guide": f"{1e6 * account.work:.4f} uJ",
             "retractions": str(account.retractions),
             "rewinds": str(self.rewinds),
         }

@@ -7,11 +7,13 @@ episodes.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.engine.feed import Feed
 from magwire.env.anatomy import Anatomy
 from magwire.env.vector_env import WireVectorEnv
 from magwire.navigate import Schedule
@@ -79,8 +81,10 @@ class Linear:
 class Navigator:
     """The field that the scenario's own navigator finds for an anatomy, at full speed of the feed.
 
-    The navigator runs the scenario once for every anatomy, with its model of the wire; the episode
-    then follows the field that it found at each feed. It is told the anatomy, as no learner is.
+    The navigator runs the scenario once for every anatomy, at the speed of the episodes and with
+    its model of the wire; the episode then follows the field that it found at each feed. It is told
+    the anatomy, and measures the field, as no learner does: what the actuator makes of what it is
+    asked for is known from the action before.
     """
 
     def __init__(self) -> None:
@@ -90,16 +94,18 @@ class Navigator:
         """Actions of all wires, shape (n, 2 + m)."""
         now, task = env.episodes, env.task
         feeds = now.batch.observe().feed + task.feed_speed * task.action_time
-        fields = np.stack([self._plan(now.anatomies[i]).at(f)[0] for i, f in enumerate(feeds)])
+        plans = [self._plan(anatomy, task.feed_speed) for anatomy in now.anatomies]
+        fields = np.stack([plan.at(feed)[0] for plan, feed in zip(plans, feeds, strict=True)])
         actions = np.zeros(env.action_space.shape or ())
         actions[:, 0] = 1.0
-        actions[:, 2:] = now.share_of(fields)
+        actions[:, 2:] = now.share_of(fields / now.measured_factors())
         return actions
 
-    def _plan(self, anatomy: Anatomy) -> Schedule:
+    def _plan(self, anatomy: Anatomy, speed: float) -> Schedule:
         key = id(anatomy)
         if key not in self._plans:  # kept with its anatomy, so that no other one gets its id
-            self._plans[key] = anatomy, schedule_of(anatomy.job.run())
+            feed = Feed(speed, anatomy.job.feed.largest)
+            self._plans[key] = anatomy, schedule_of(replace(anatomy.job, feed=feed).run())
         return self._plans[key][1]
 
 

@@ -126,8 +126,8 @@ class Episodes:
 
         The reward of an action is 10 times the share of the way to the goal that the tip has gained
         (lost, if negative; nothing past the goal), and 1 for reaching the goal; less 0.2 over the
-        number of actions that an episode may have; less 0.05 times the wall's force on the tip, in
-        units of the limit, of which no more than 10 count. Forces elsewhere are in the cost alone.
+        number of actions that an episode may have; less 0.05 times the wall's force on the tip and
+        the cost, in units of the limit, of which no more than 10 count.
         """
         task, whole = self.task, self.task.action_time
         only = np.ones(len(self._rows), dtype=bool) if only is None else only
@@ -141,7 +141,7 @@ class Episodes:
         self._taken += only
         before, moved = self._arc.copy(), np.flatnonzero(only)
         self._remember(self._look(moved), only)
-        force = self.info["tip_force"] / task.force_limit
+        force = (self.info["tip_force"] + self.info["cost"]) / task.force_limit
         over = (self.terminated, self.truncated)
         course = (only, ended, self._taken, task.actions, before, self._arc, self._goal, force)
         settle(*course, WEIGHTS, self.reward, over)
@@ -156,6 +156,11 @@ class Episodes:
         if self.task.axes == "world":
             return share
         return along(share[:, None], self._frame)[:, 0]
+
+    def measured_factors(self) -> Array:
+        """What the actuators make of one tesla that is asked for, shape (n, m); 1 if of none."""
+        made, asked = self.batch.observe().inputs, self._asked
+        return np.divide(made, asked, out=np.ones_like(asked), where=asked != 0.0)
 
     def _look(self, fresh: NDArray[np.int64]) -> Seen:
         """What is observed of all wires; those in ``fresh`` have changed.

@@ -57,8 +57,8 @@ class WireEnv(gymnasium.Env[Any, NDArray[np.float32]]):
     ## Rewards
     10 times the share of the way that the tip has gained, or lost, in the action, up to the goal; 1
     on arrival; less 0.2 over the number of actions that an episode may have; less 0.05 times the
-    wall's force on the tip, in units of ``force_limit``, of which no more than 10 count. Forces on
-    the rest of the wire are in ``info["cost"]``, for those who learn under constraints.
+    sum of the wall's force on the tip and ``info["cost"]``, in units of ``force_limit``, of which
+    no more than 10 count. What presses behind the tip below that limit costs nothing.
 
     ## Starting State
     The wire rests at one of the feeds ``starts``. With ``randomise`` the models are drawn anew.

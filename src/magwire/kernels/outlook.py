@@ -143,7 +143,7 @@ def ask(share, frames, limit, most, only, asked):
 def settle(only, failed, taken, actions, before, arc, goal, force, weights, reward, ended):
     """Reward each wire for what it did, and see whether its episode is over.
 
-    taken: actions so far, of as many as ``actions``; force: on the tip, over the limit; weights: of
+    taken: actions so far, of as many as ``actions``; force: that counts, in limits; weights: of
     progress, of success, of an episode's length, of force, and the largest force that counts;
     reward, and ended by success or cut off: changed, shape (n,).
     """

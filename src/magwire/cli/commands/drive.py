@@ -49,7 +49,6 @@ def drive(
     """
     from magwire.drive import check_package, serve
     from magwire.errors import positive
-    from magwire.report.run import COLUMN
     from magwire.scenario import load
     from magwire.units import parse
 
@@ -86,8 +85,10 @@ def drive(
             port=port,
             ready=ready,
         )
-    for name, text in outcome.rows().items():
-        say(f"{name:{COLUMN}}{text}")
+    rows = outcome.rows()
+    wide = 2 + max(map(len, rows))
+    for name, text in rows.items():
+        say(f"{name:{wide}}{text}")
 
 
 def _free(name: str) -> Path:

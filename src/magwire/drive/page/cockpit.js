@@ -8,6 +8,7 @@
   const RISE = 0.25; // of the largest field a second, by keys
   const SPREAD = 0.8; // as in scene.js
   const REWIND = 2; // seconds
+  const HARDEST = 100; // newtons, with which no hand pushes a wire: a larger limit is a slip of the keys
   const WAYS = ["shaded", "shaded coarsely", "plain strokes"]; // as in scene.js
 
   class Cockpit {
@@ -69,7 +70,7 @@
       Object.assign(speed, { min: Math.log(0.05 * world.speed), max: Math.log(world.fastest), step: "any", value: Math.log(world.speed) });
       speed.addEventListener("input", () => this.setSpeed(Math.exp(Number(speed.value))));
       this.setSpeed(world.speed);
-      this.find(".limit").value = Number((1e3 * world.limit).toPrecision(3));
+      this.writeLimit(world.limit);
       for (const button of this.root.querySelectorAll("[data-help]")) {
         button.disabled = Boolean(world.noHelp) && button.dataset.help !== "none";
         if (button.disabled) button.title = world.noHelp;
@@ -90,7 +91,8 @@
       for (const button of this.root.querySelectorAll("[data-help]")) button.addEventListener("click", () => this.say({ help: button.dataset.help }));
       for (const button of this.root.querySelectorAll("[data-rewind]")) button.addEventListener("click", () => this.say({ rewind: Number(button.dataset.rewind) }));
       for (const button of this.root.querySelectorAll("[data-preset]")) button.addEventListener("click", () => this.preset(button.dataset.preset));
-      this.find(".limit").addEventListener("change", ({ target }) => this.say({ limit: Number(target.value) / 1e3 }));
+      this.find(".limit").addEventListener("change", () => this.setLimit());
+      this.find(".limit").addEventListener("keydown", ({ key, target }) => key === "Enter" && target.blur()); // keys drive again
       this.find(".way").addEventListener("click", () => {
         this.scene.repaint(0);
         this.turns = false;
@@ -106,6 +108,20 @@
       this.untouched = name;
       parts.preset([this.scene], name);
       for (const button of this.root.querySelectorAll("[data-preset]")) button.classList.toggle("on", button.dataset.preset === name);
+    }
+
+    writeLimit(newtons) {
+      this.find(".limit").value = Number((1e3 * newtons).toPrecision(3));
+    }
+
+    // The limit that was typed; what is none is taken back.
+    setLimit() {
+      const newtons = Number(this.find(".limit").value) / 1e3;
+      if (newtons > 0 && newtons <= HARDEST) return this.say({ limit: newtons });
+      const stays = this.picture?.limit ?? this.world.limit;
+      this.writeLimit(stays);
+      this.notice(`The limit must be above 0 and at most ${1e3 * HARDEST} mN; it stays at ${parts.newtons(stays)}.`);
+      this.status();
     }
 
     setSpeed(speed) {
@@ -140,6 +156,7 @@
       if (!changed && !held) return;
       this.last = { feed, twist };
       this.said = now;
+      this.begun ||= held;
       const number = this.say({ hold: [feed * this.speed, twist * this.world.turnRate] });
       if (event && changed) this.pending = { number, stamp: event.timeStamp };
     }
@@ -169,7 +186,10 @@
       const { picture, world } = this;
       const points = parts.singles(picture.points);
       const forces = parts.singles(picture.forces);
-      if (picture.limit !== this.limit) this.scaled((this.limit = picture.limit));
+      if (picture.limit !== this.limit) {
+        this.scaled((this.limit = picture.limit));
+        this.writeLimit(this.limit);
+      }
       const suggested = world.uniform ? picture.suggested : null;
       this.scene.show({ points, forces, field: picture.field, time: picture.time, suggested });
       this.arms.forEach((arm, k) => (!this.turns || picture.rate === 0 || (this.pictures + k) % 2) && arm.show({ points }));
@@ -244,6 +264,7 @@
       else if (picture?.message) [text, level] = [picture.message, "bad"];
       else if (picture && picture.rate > 0 && picture.rate < SLOW) [text, level] = [`The clock is slowed to ${picture.rate.toFixed(2)}: this machine cannot keep up. No step is left out.`, "watch"];
       else if (this.said_ && performance.now() - this.saidAt < 4000) [text, level] = [this.said_, "bad"];
+      else if (picture && role?.drives && !this.begun && picture.feed === 0) text = this.world.noHelp ? "Hold ↑ to feed the wire." : "Hold ↑ to feed the wire; F has the navigator steer.";
       const line = this.find(".status");
       if (line.textContent !== text) line.textContent = text;
       line.dataset.level = level;

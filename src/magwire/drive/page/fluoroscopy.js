@@ -47,9 +47,10 @@
       new ResizeObserver(() => this.resize()).observe(holder);
     }
 
-    // As for a scene; ways: the course to each outlet.
-    setWorld({ branches, surface, wire, ways, target }) {
+    // As for a scene; ways: the course to each outlet. A roadmap was taken once: the wall may move away from it.
+    setWorld({ branches, surface, wire, ways, target, motions }) {
       Object.assign(this, { branches, surface, wire, ways, target });
+      if (motions.length) this.label.textContent += ", roadmap at rest";
       this.lumenRadius = Math.min(...branches.flatMap(({ radii }) => radii), Infinity);
       this.resize();
     }

@@ -1,4 +1,4 @@
-"""Environments of Gymnasium: steps a second with contact, in a batch and alone.
+"""Environments of Gymnasium: steps a second with contact, in a batch and alone, and resets.
 
 An action is one step of 10 ms; inputs change by up to 0.5 mT and the feed turns round at random.
 Deep: between 50 and 70 mm of feed in the half-circle, in contact. Whole episodes: from the mouth to
@@ -95,6 +95,20 @@ def alone(steps: int) -> Sample:
     return {"rate": steps / seconds, "newton": (_iterations(wires) - before) / steps}
 
 
+def resets(count: int, *, new: bool) -> Sample:
+    """Resets a second of a single environment: of a known anatomy, or each of a new random one."""
+    from magwire.env import WireEnv
+    from magwire.env.ids import options_of
+
+    env = WireEnv(**options_of("RandomVessel")) if new else WireEnv(**options(deep=False))
+    env.reset(seed=0)
+    began = time.perf_counter()
+    for _ in range(count):
+        env.reset()
+    seconds = time.perf_counter() - began
+    return {"rate": count / seconds, "newton": float("nan")}
+
+
 def _iterations(wires: Any) -> int:
     return sum(wires.plant(i).totals.newton_iterations for i in range(len(wires)))
 
@@ -149,6 +163,8 @@ def run_learning(repeats: int, tell: Callable[[str], None]) -> list[dict[str, An
     rows += [
         (whole, 2, partial(batch, 2, deep=False, steps=LONG_STEPS)),
         ("one alone, 50 to 70 mm", 1, partial(alone, 20 * DEEP_STEPS)),
+        ("resets, known anatomy", 1, partial(resets, 200, new=False)),
+        ("resets, new random vessel", 1, partial(resets, 10, new=True)),
     ]
     if find_spec("mujoco") is not None:
         rows.append(("MuJoCo's rollout of 64", 2, partial(mujoco, 2)))

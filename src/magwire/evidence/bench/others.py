@@ -151,10 +151,10 @@ def by_engine(rows: Sequence[Row]) -> Table:
 
 
 def by_environment(rows: Sequence[Row]) -> Table:
-    """Steps a second of environments."""
+    """Steps and resets a second of environments."""
     made = table(
-        "12  Environments: actions of 10 ms a second, in contact",
-        *("", "threads", "actions\n/s", "of best", "Newton\n/step"),
+        "12  Environments: actions of 10 ms, in contact, and resets",
+        *("", "threads", "a second", "of best", "Newton\n/step"),
     )
     for row in rows:
         samples = row["samples"]
@@ -162,8 +162,8 @@ def by_environment(rows: Sequence[Row]) -> Table:
         made.add_row(
             row["what"],
             f"{row['threads']}",
-            f"{median(samples, 'rate'):.0f}",
-            f"{max(column(samples, 'rate')):.0f}",
+            f"{median(samples, 'rate'):.4g}",
+            f"{max(column(samples, 'rate')):.4g}",
             f"{newton:.2f}" if newton == newton else "",
         )
     return made
