@@ -25,7 +25,7 @@ def small(monkeypatch: pytest.MonkeyPatch) -> None:
     """Sizes from which a result is large, a small part of what they are."""
     monkeypatch.setattr(loading, "WHOLE", loading.WHOLE // 1000)
     monkeypatch.setattr(pieces, "BYTES", pieces.BYTES // 1000)
-    monkeypatch.setattr(writer, "MOST_WAITING", writer.MOST_WAITING // 100)
+    monkeypatch.setattr(writer, "MOST_WAITING", writer.MOST_WAITING // 300)
 
 
 def written(path: Path | None, count: int = 40) -> Result:
@@ -94,7 +94,7 @@ def test_records_wait_in_a_draft_when_they_are_many(
 ) -> None:
     path = tmp_path / "result.nc"
     made = put_aside(path, monkeypatch)
-    assert len(made._waiting) < made._most < 10
+    assert 0 < len(made._waiting) < 10
     assert Result.load(path).time.size == 10
     assert len(list(tmp_path.glob(".*.draft.nc"))) == 1
     made.close("complete")
@@ -108,16 +108,16 @@ def test_a_disk_that_fills_up_loses_nothing_that_was_flushed(
 ) -> None:
     path = tmp_path / "result.nc"
     made = put_aside(path, monkeypatch)
-    change = disk.change
+    add = disk.Draft.add
 
-    def full(draft: Path, act: Any) -> None:
-        change(draft, act)
+    def full(draft: disk.Draft, *rows: Any) -> None:
+        add(draft, *rows)
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr(disk, "change", full)
+    monkeypatch.setattr(disk.Draft, "add", full)
     with pytest.raises(ResultError, match="cannot be written: no space left on device"):
         made.flush()
-    monkeypatch.setattr(disk, "change", change)  # without the draft there is room
+    monkeypatch.setattr(disk.Draft, "add", add)  # without the draft there is room
     made.close("failed", "no room")
     result = Result.load(path)
     np.testing.assert_equal(result.position, written(None, 10).position)

@@ -296,18 +296,17 @@ class Pilot:
     def _look(self) -> Sight:
         plant = self.session.plant
         seen = plant.survey()
-        points = plant.state.q[1:, :3] * plant.system.scales.length
         return Sight(
             time=plant.time,
             feed=plant.feed,
             twist=plant.twist,
-            points=points,
-            forces=seen.forces,
-            push=seen.push,
-            torque=seen.torque,
-            field=plant.source.at(points[-1:])[0][0] + seen.made,
+            points=seen.position,
+            forces=seen.contact_force,
+            push=seen.push_force,
+            torque=seen.guide_torque,
+            field=seen.flux_density,
             inputs=plant.inputs,
-            clearance=seen.along,
+            clearance=seen.clearance_along,
         )
 
 

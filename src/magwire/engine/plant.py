@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,8 +12,7 @@ from numpy.typing import NDArray
 from magwire.engine.command import Drive
 from magwire.engine.departure import departs
 from magwire.engine.observation import Observation
-from magwire.engine.reaction import reaction, squeeze
-from magwire.engine.record import Record, Totals
+from magwire.engine.record import Record, Totals, row_type, sheet_of
 from magwire.engine.rubbing import Rubbing
 from magwire.engine.sampling import SAMPLINGS, mismatch, sample
 from magwire.engine.status import Status
@@ -27,7 +25,6 @@ from magwire.kernels.body import (
     advance,
     look,
     make_body,
-    moved_by,
     place_wall,
     rest,
     survey,
@@ -37,11 +34,16 @@ from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.history import copy_state
 from magwire.kernels.march import RETRIES, Tally
 from magwire.kernels.newton import CONVERGED, Limits
+from magwire.kernels.sheet import NUMBERS
 from magwire.kernels.sources.steer import steer
-from magwire.kernels.wall.traction import SLID
 
 Array = NDArray[np.float64]
 
+TIME, WALL_TIME = NUMBERS.index("time"), NUMBERS.index("wall_time")
+CLEARANCE_ALONG, STABLE = NUMBERS.index("clearance_along"), NUMBERS.index("stable")
+SMALLEST_CLEARANCE = NUMBERS.index("smallest_clearance")
+NEWTON_ITERATIONS = NUMBERS.index("newton_iterations")
+TIP_DEPARTURE, TIP_OFFSET = NUMBERS.index("tip_departure"), NUMBERS.index("tip_offset")
 DEEP = 0.8  # part of how deep a wall may be pressed in, from which on that may stop a step
 
 
@@ -68,24 +70,6 @@ class Snapshot:
     def with_inputs(self, inputs: Array) -> Snapshot:
         """The same wire with other inputs: it is not at rest with them."""
         return replace(self, state=self.state._replace(inputs=inputs.copy()))
-
-
-class Survey(NamedTuple):
-    """What is read off a state for a record or an equilibrium, in SI; see ``Record``."""
-
-    forces: Array
-    clearance: Array
-    indentation: Array
-    middle: float
-    along: float
-    offset: float
-    directors: Array
-    twist: float
-    rubs: Array
-    made: Array
-    push: float
-    torque: float
-    stable: bool
 
 
 class Plant:
@@ -142,15 +126,16 @@ class Plant:
         self.model = (system.rod, self.field, self._wall, lumen)
         limits, path = system.step_limits(), system.path_arrays._replace(moving=moving)
         self._tolerance = limits.tolerance
-        self._parts = Parts(
-            self.model, path, system.guide, self.state, self.work, limits, self._tally
-        )
-        self._body = make_body(self._parts)
+        self._kind = row_type(system.wire.nodes, len(self.inputs))
+        self._row = np.zeros(self._kind.itemsize // 8)
+        self._row[SMALLEST_CLEARANCE], self._row[TIP_DEPARTURE] = math.inf, math.nan
+        self._sheet = sheet_of(self._row, self._kind)
+        known = self.model, path, system.guide, self.state, self.work, limits, self._tally
+        self._body = make_body(Parts(*known, self._sheet))
         self._patch = system.patch / system.wire.length
         self._turn = tuple(system.mesh.rest_turn[-1].tolist())
         self._seen = np.zeros(GLANCE)
         self._counted = np.zeros(4)
-        self._clearance = float("inf")
         self._began = time.perf_counter()
         none = np.zeros(0)
         self.march(none, none, np.zeros((0, len(self.inputs))), 1.0, inertia=True)  # compiles
@@ -224,7 +209,7 @@ class Plant:
         """What to try after a step that failed."""
         for bed in self._wall.bed:
             length = self.system.wire.length
-            deep, most = float(self.survey().indentation.max()), bed.deepest * length
+            deep, most = float(self.survey().wall_indentation.max()), bed.deepest * length
             if deep > DEEP * most:
                 return (
                     f"the wall is pressed in by {1e3 * deep:.3g} mm, and by at most "
@@ -306,7 +291,7 @@ class Plant:
         """Whether the wire stays where it is: see ``Record.stable`` (P-16, P-33)."""
         return self._stays(self.survey())
 
-    def _stays(self, seen: Survey) -> bool:
+    def _stays(self, seen: Record) -> bool:
         """Whether it is stable; under friction, where its tangent leaves that open, after a search.
 
         The search knows no wall that moves; there the wire counts as one that leaves.
@@ -356,97 +341,40 @@ class Plant:
         status, taken, _, residual, _ = rest(self._body, limits)
         return Status(status), int(taken), float(residual)
 
-    def survey(self) -> Survey:
-        """What a record holds."""
-        nodes, system = len(self.state.q), self.system
-        forces, directors, rubs = (np.zeros((nodes, 3)) for _ in range(3))
-        clearance, sunk = np.zeros(nodes), np.zeros(nodes)
-        found = survey(self._body, forces, clearance, sunk, directors, rubs)
-        held, offset, twist, made, (middle, along, stable) = found
-        clearance[: held + 1] = np.nan
-        length = system.scales.length
-        if math.isnan(offset):
-            offset = float(system.path.offset(self.state.q[-1:, :3] * length)[0]) / length
-        push, torque = reaction(system, held, self.work.gradient)
-        return Survey(
-            forces[1:] * system.scales.force,
-            clearance[1:] * length,
-            sunk[1:] * length,
-            middle * length if middle < math.inf else math.nan,
-            along * length if along < math.inf else math.nan,
-            offset * length,
-            directors[1:],
-            twist,
-            rubs[1:] * system.scales.force,
-            np.array(made),
-            push,
-            torque,
-            bool(stable),
-        )
-
-    @property
-    def wall_displacement(self) -> Array:
-        """How far the wall has moved at each node, shape (nodes, 3) [m]; 0 on the guide."""
-        moved = np.zeros((len(self.state.q), 3))
-        moved_by(self._body, moved)
-        result: Array = moved[1:] * self.system.scales.length
-        return result
+    def survey(self) -> Record:
+        """What there is to see of the wire now; nothing is counted or noted by it."""
+        system, scales, sheet = self.system, self.system.scales, self._sheet
+        survey(self._body, scales.length, scales.force)
+        numbers, tip, flux = sheet.numbers, sheet.position[-1:], sheet.flux_density
+        flux += self.source.at(tip)[0][0]
+        if math.isnan(numbers[TIP_OFFSET]):
+            numbers[TIP_OFFSET] = float(system.path.offset(tip)[0])
+        numbers[TIME] = self.time
+        numbers[WALL_TIME] = time.perf_counter() - self._began
+        return Record(self._row.copy(), self._kind)
 
     @property
     def totals(self) -> Totals:
         """Sums over all steps so far."""
-        counts, forces = self._tally
-        scales = self.system.scales
-        steps = int(counts[0])
-        return Totals(
-            max_tip_force=float(forces[0]) * scales.force,
-            mean_tip_force=float(forces[1]) / max(steps, 1) * scales.force,
-            first_contact_feed=float(forces[2]) * scales.length if forces[2] >= 0 else float("nan"),
-            smallest_clearance=self._clearance,
-            steps=steps,
-            newton_iterations=int(counts[1]),
-            factorisations=int(counts[2]),
-            retries=int(counts[3]),
-            wall_time=time.perf_counter() - self._began,
-        )
+        return self.survey().totals
 
-    def record(self) -> Record:
-        """The state as it is now."""
-        system, state = self.system, self.state
-        scales = system.scales
+    def record(self, departure: float = math.nan) -> Record:
+        """The state as it is now, to be kept.
+
+        Parameters
+        ----------
+        departure
+            Distance of the tip from where the navigator's model has it [m].
+        """
         seen = self.survey()
-        if seen.along == seen.along:
-            self._clearance = min(self._clearance, seen.along)
-        counts = self._tally.counts
-        new_steps = counts[0] - self._counted[0]
-        iterations = (counts[1] - self._counted[1]) / new_steps if new_steps > 0 else 0.0
-        self._counted = counts.copy()
-        tip = state.q[-1:, :3] * scales.length
-        return Record(
-            time=self.time,
-            feed=self.feed,
-            position=state.q[1:, :3] * scales.length,
-            flux_density=self.source.at(tip)[0][0] + seen.made,
-            inputs=state.inputs.copy(),
-            contact_force=seen.forces,
-            clearance=seen.clearance,
-            clearance_midpoint=seen.middle,
-            clearance_along=seen.along,
-            tip_force=float(np.linalg.norm(seen.forces[-1])),
-            tip_offset=seen.offset,
-            friction_force=seen.rubs,
-            slip=state.contact[1:, SLID] * scales.length,
-            friction_work=float(state.spent[0]) * scales.force * scales.length,
-            wall_indentation=seen.indentation,
-            wall_displacement=self.wall_displacement,
-            wall_work=float(state.spent[1]) * scales.force * scales.length,
-            guide_twist=self.twist,
-            tip_twist=seen.twist,
-            material_director=seen.directors,
-            push_force=seen.push,
-            insertion_force=seen.push - squeeze(system, state, self.mouth),
-            guide_torque=seen.torque,
-            newton_iterations=float(iterations),
-            stable=self._stays(seen),
-            totals=self.totals,
+        here, least = seen.row[CLEARANCE_ALONG], self._row[SMALLEST_CLEARANCE]
+        self._row[SMALLEST_CLEARANCE] = seen.row[SMALLEST_CLEARANCE] = (
+            here if here < least else least
         )
+        counts, before = self._tally.counts, self._counted
+        steps = counts[0] - before[0]
+        seen.row[NEWTON_ITERATIONS] = (counts[1] - before[1]) / steps if steps > 0 else 0.0
+        seen.row[TIP_DEPARTURE] = departure
+        seen.row[STABLE] = self._stays(seen)
+        self._counted = counts.copy()
+        return seen

@@ -2,19 +2,37 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import Literal
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from magwire.contact import WallMotion
+from magwire.kernels.sheet import NUMBERS, Sheet
+from magwire.units import show
 
 Array = NDArray[np.float64]
 Motion = Literal["dynamic", "quasi-static"]
 
 UNIFORM_INPUTS = (("Bx", "T"), ("By", "T"), ("Bz", "T"))
 """Inputs of a field that is uniform: its components."""
+BLOCKS: dict[str, tuple[str, ...]] = {
+    "flux_density": ("xyz",),
+    "inputs": ("input",),
+    "clearance": ("node",),
+    "slip": ("node",),
+    "wall_indentation": ("node",),
+    "position": ("node", "xyz"),
+    "contact_force": ("node", "xyz"),
+    "friction_force": ("node", "xyz"),
+    "wall_displacement": ("node", "xyz"),
+    "material_director": ("node", "xyz"),
+}
+"""Arrays of a record, as ``Sheet`` has them after its numbers, and their dimensions."""
+STABLE = NUMBERS.index("stable")
+TOTALS = slice(NUMBERS.index("max_tip_force"), len(NUMBERS))
 PATCH = 5e-3  # length of wire over which forces are summed or averaged [m]
 EDGES = 2.0  # edges in a patch at least: forces are not known any finer
 
@@ -95,8 +113,7 @@ class RunInfo:
     wall_motion: tuple[WallMotion, ...] = ()
 
 
-@dataclass(frozen=True)
-class Totals:
+class Totals(NamedTuple):
     """What a run adds up over all its steps, recorded or not.
 
     Attributes
@@ -124,7 +141,45 @@ class Totals:
     wall_time: float = 0.0
 
 
-@dataclass(frozen=True)
+@cache
+def row_type(nodes: int, inputs: int) -> np.dtype[Any]:
+    """Where the numbers of a record are in its row: single ones, then arrays, by name."""
+    sizes = {"xyz": 3, "input": inputs, "node": nodes}
+    blocks = [(name, float, tuple(sizes[d] for d in dims)) for name, dims in BLOCKS.items()]
+    return np.dtype([(name, float) for name in NUMBERS] + blocks)
+
+
+def sheet_of(row: Array, kind: np.dtype[Any]) -> Sheet:
+    """A row, shape (size,), as kernels write to it."""
+    blocks = row.view(kind)
+    return Sheet(row[: len(NUMBERS)], *(blocks[name][0] for name in BLOCKS))
+
+
+class _Number:
+    """A single number of a record."""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._place = NUMBERS.index(name)
+
+    def __get__(self, record: Record | None, owner: type) -> float:
+        if record is None:  # asked of the class
+            return self  # type: ignore[return-value]
+        return float(record.row[self._place])
+
+
+class _Block:
+    """An array of a record: a view of its row, made when it is asked for."""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __get__(self, record: Record | None, owner: type) -> Array:
+        if record is None:  # asked of the class
+            return self  # type: ignore[return-value]
+        found: Array = record.row.view(record.kind)[self._name][0]
+        return found
+
+
 class Record:
     """The state of the wire at one recorded time.
 
@@ -182,32 +237,38 @@ class Record:
     insertion_force
         Force that feeds the wire through the guide [N]: the push, less what the bend at the guide's
         mouth squeezes out by itself (P-38).
+    row, kind
+        All these numbers, shape (size,), and where each is in it.
     """
 
-    time: float
-    feed: float
-    position: Array
-    flux_density: Array
-    inputs: Array
-    contact_force: Array
-    clearance: Array
-    clearance_midpoint: float
-    clearance_along: float
-    tip_force: float
-    tip_offset: float
-    friction_force: Array
-    slip: Array
-    friction_work: float
-    wall_indentation: Array
-    wall_displacement: Array
-    wall_work: float
-    guide_twist: float
-    tip_twist: float
-    material_director: Array
-    push_force: float
-    guide_torque: float
-    newton_iterations: float
-    stable: bool
-    totals: Totals = field(default_factory=Totals)
-    tip_departure: float = float("nan")
-    insertion_force: float = float("nan")
+    __slots__ = ("kind", "row")
+
+    time, feed = _Number(), _Number()
+    clearance_midpoint, clearance_along = _Number(), _Number()
+    tip_force, tip_offset = _Number(), _Number()
+    friction_work, wall_work = _Number(), _Number()
+    guide_twist, tip_twist = _Number(), _Number()
+    push_force, insertion_force, guide_torque = _Number(), _Number(), _Number()
+    newton_iterations, tip_departure = _Number(), _Number()
+    flux_density, inputs = _Block(), _Block()
+    clearance, slip, wall_indentation = _Block(), _Block(), _Block()
+    position, contact_force, friction_force = _Block(), _Block(), _Block()
+    wall_displacement, material_director = _Block(), _Block()
+
+    def __init__(self, row: Array, kind: np.dtype[Any]) -> None:
+        self.row, self.kind = row, kind
+
+    def __repr__(self) -> str:
+        return f"<Record: {show(self.time, 'time')}, {show(self.feed, 'length')} of feed>"
+
+    @property
+    def stable(self) -> bool:
+        """Whether the tangent stiffness is positive definite."""
+        return bool(self.row[STABLE])
+
+    @property
+    def totals(self) -> Totals:
+        """Sums over all steps so far."""
+        a, b, c, d, *counts, spent = self.row[TOTALS].tolist()
+        steps, iterations, factorisations, retries = (int(count) for count in counts)
+        return Totals(a, b, c, d, steps, iterations, factorisations, retries, spent)

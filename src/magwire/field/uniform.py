@@ -34,4 +34,4 @@ class UniformField:
     def at(self, points: Array) -> tuple[Array, Array]:
         """Flux density, shape (n, 3) [T], and zero gradient, shape (n, 3, 3) [T/m]."""
         n = len(points)
-        return np.tile(np.array(self.flux_density), (n, 1)), np.zeros((n, 3, 3))
+        return np.full((n, 3), self.flux_density), np.zeros((n, 3, 3))

@@ -19,17 +19,17 @@ from magwire.kernels.glance import glance
 from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.march import Drive, Tally, march
 from magwire.kernels.newton import Limits, newton
-from magwire.kernels.observe import observe, off_centreline, read_frames
-from magwire.kernels.sources.steer import field_of
-from magwire.kernels.vectors import row
-from magwire.kernels.wall.motion import displacements, move_wall
+from magwire.kernels.observe import observe, read_tally
+from magwire.kernels.sheet import Sheet
+from magwire.kernels.wall.motion import move_wall
 from magwire.kernels.wall.traction import read_friction
 
 
 class Parts(NamedTuple):
     """What a moving wire is made of.
 
-    model: what its energy needs; path: the way to the target, as a single tube.
+    model: what its energy needs; path: the way to the target, as a single tube; sheet: where what
+    a record holds is written.
     """
 
     model: tuple[Rod, Field, Wall, LumenArrays]
@@ -39,6 +39,7 @@ class Parts(NamedTuple):
     work: Work
     limits: Limits
     tally: Tally
+    sheet: Sheet
 
 
 @structref.register
@@ -76,13 +77,6 @@ def place_wall(body):
 
 
 @entry
-def moved_by(body, moved):
-    """Fill ``moved`` [N+1, 3] with the displacement of the wall at the nodes; zero if it rests."""
-    p = body.parts
-    displacements(p.model[3].moving, p.state, moved)
-
-
-@entry
 def rest(body, limits):
     """Newton's method to the equilibrium nearby; see ``newton``."""
     p = body.parts
@@ -91,22 +85,17 @@ def rest(body, limits):
 
 
 @entry
-def survey(body, forces, clearance, sunk, directors, rubs):
-    """Put what the guide holds in its place and read off what a record holds; see ``observe``.
-
-    Returns the last held node, the tip's distance from the centreline, its twist and the actuator's
-    flux density there, and what ``observe`` does.
-    """
+def survey(body, length, force):
+    """Put what the guide holds in its place and fill the sheet; see ``observe``."""
     p = body.parts
     mouth = mouth_of(p.model[0], p.guide, p.state)
-    read_friction(p.model[2].friction, p.model[0], p.state, mouth.held, rubs)
+    scales = (length, force)
+    read_friction(
+        p.model[2].friction, p.model[0], p.state, mouth.held, p.sheet.friction_force, force
+    )
     place_held(p.model[0], p.guide, p.state, 0, mouth.held, p.state.guide[0], p.state.guide[1])
-    found = observe(p.model, p.state, mouth, p.work, forces, clearance, sunk)
-    tip = row(p.state.q, p.state.q.shape[0] - 1)
-    twist = read_frames(p.state, directors)
-    field = p.model[1]
-    made = field_of(field.sources, field.strength, tip, False)
-    return mouth.held, off_centreline(p.path, tip), twist, made[0], found
+    observe(p.model, p.path, p.guide, p.state, mouth, p.work, p.sheet, scales)
+    read_tally(p.tally, p.sheet, scales)
 
 
 @kernel

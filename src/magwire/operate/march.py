@@ -18,6 +18,9 @@ from magwire.field import FieldSource
 
 Array = NDArray[np.float64]
 
+AHEAD = 1000
+"""Steps whose feed and twist are asked of a script at once, at least."""
+
 
 class March:
     """A wire on its way into the lumen as a script says, one time step after the other.
@@ -68,6 +71,7 @@ class March:
         self._script, self._inertia = feed, inertia
         self._detour: Array = np.zeros(0)  # feeds of the next steps, before the script goes on
         self._detoured = 0
+        self._known: tuple[int, Array, Array] = (0, np.zeros(0), np.zeros(0))
         first, twist = self._course(1, first=0)
         self.plant = Plant(system, source, feed=float(first[0]), twist=float(twist[0]))
         self._inputs: Array = self.plant.inputs[None]
@@ -81,12 +85,21 @@ class March:
     def _course(self, count: int, *, first: int | None = None) -> tuple[Array, Array]:
         """Feed [m] and twist at the ends of the next steps of the script, shape (count,)."""
         first = self.step - self._detoured + 1 if first is None else first
-        ends = np.minimum((first + np.arange(count)) * self.time_step, self._script.duration)
-        return np.minimum(self._script.at(ends), self._length), self._script.twist_at(ends)
+        begin, feed, twist = self._known
+        if not begin <= first <= begin + len(feed) - count:
+            ends = (first + np.arange(max(count, AHEAD))) * self.time_step
+            ends = np.minimum(ends, self._script.duration)
+            feed = np.minimum(self._script.at(ends), self._length)
+            begin, twist = first, self._script.twist_at(ends)
+            self._known = (begin, feed, twist)
+        there = slice(first - begin, first - begin + count)
+        return feed[there], twist[there]
 
     def _ahead(self, count: int) -> tuple[Array, Array]:
         """Feed [m] and twist at the ends of the next steps, shape (count,)."""
         back = self._detour[:count]
+        if len(back) == 0:
+            return self._course(count)
         feed, twist = self._course(count - len(back))
         return (
             np.concatenate((back, feed)),
@@ -131,7 +144,9 @@ class March:
         """Do at most this many more time steps; whether all of them converged."""
         count = min(steps, self.steps - self.step)
         feed, twist = self._ahead(count)
-        inputs = self._inputs[np.minimum(np.arange(count), len(self._inputs) - 1)]
+        inputs = self._inputs[:count]
+        if len(inputs) < count:
+            inputs = np.concatenate((inputs, inputs[-1:].repeat(count - len(inputs), axis=0)))
         made = inputs if self._line is None else self._line.made(inputs)
         done = self.plant.advance(Drive(feed, twist, made, self.time_step, self._inertia))
         self._inputs = self._inputs[min(done, len(self._inputs) - 1) :]

@@ -99,7 +99,7 @@ def steered_records(
             seen = observe(march)
             gone = float(np.fmax(gone, departure(navigator, seen)))
         if march.step % every == 0 or march.step == march.steps or not converged:
-            yield replace(plant.record(), tip_departure=gone)
+            yield plant.record(gone)
             gone = float("nan")
         if not converged:
             return

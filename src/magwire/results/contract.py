@@ -32,7 +32,8 @@ class Variable:
     long_name
         What it is.
     read
-        Its value at one time, from the record and what is known of the run.
+        Its values, with time as their first axis, from the numbers of many records, by the names of
+        ``Record``, and what is known of the run; those of its own name if left out.
     dtype
         Type of the numbers.
     extra
@@ -42,7 +43,7 @@ class Variable:
     dims: tuple[str, ...]
     units: str
     long_name: str
-    read: Callable[[Record, RunInfo], Any]
+    read: Callable[[NDArray[Any], RunInfo], NDArray[Any]] | None = None
     dtype: np.dtype[Any] = FLOAT
     extra: tuple[tuple[str, Any], ...] = ()
 
@@ -79,148 +80,117 @@ class Constant:
 
 
 VARIABLES: dict[str, Variable] = {
-    "time": Variable(("time",), "s", "simulated time", lambda r, _: r.time),
-    "feed": Variable(
-        ("time",), "m", "insertion: length of wire inside the lumen", lambda r, _: r.feed
+    "time": Variable(("time",), "s", "simulated time"),
+    "feed": Variable(("time",), "m", "insertion: length of wire inside the lumen"),
+    "position": Variable(("time", "node", "xyz"), "m", "positions of the nodes"),
+    "field": Variable(
+        ("time", "xyz"), "T", "flux density at the tip", lambda r, _: r["flux_density"]
     ),
-    "position": Variable(
-        ("time", "node", "xyz"), "m", "positions of the nodes", lambda r, _: r.position
-    ),
-    "field": Variable(("time", "xyz"), "T", "flux density at the tip", lambda r, _: r.flux_density),
     "inputs": Variable(
         ("time", "input"),
         "see the attribute input_units",
         "inputs of the actuator, by the attribute input_names",
-        lambda r, _: r.inputs,
     ),
-    "contact_force": Variable(
-        ("time", "node", "xyz"), "N", "force of the wall on the wire", lambda r, _: r.contact_force
-    ),
+    "contact_force": Variable(("time", "node", "xyz"), "N", "force of the wall on the wire"),
     "clearance": Variable(
         ("time", "node"),
         "m",
         "distance of the nodes to the wall as it is",
-        lambda r, _: r.clearance,
     ),
     "clearance_midpoint": Variable(
         ("time",),
         "m",
         "smallest distance to the wall midway between nodes",
-        lambda r, _: r.clearance_midpoint,
     ),
     "clearance_along": Variable(
         ("time",),
         "m",
         "smallest distance to the wall anywhere along the wire",
-        lambda r, _: r.clearance_along,
     ),
-    "tip_force": Variable(
-        ("time",), "N", "magnitude of the force of the wall on the tip", lambda r, _: r.tip_force
-    ),
-    "tip_offset": Variable(
-        ("time",), "m", "distance of the tip from the centreline", lambda r, _: r.tip_offset
-    ),
+    "tip_force": Variable(("time",), "N", "magnitude of the force of the wall on the tip"),
+    "tip_offset": Variable(("time",), "m", "distance of the tip from the centreline"),
     "friction_force": Variable(
         ("time", "node", "xyz"),
         "N",
         "force of the wall on the wire along the wall",
-        lambda r, _: r.friction_force,
     ),
     "slip": Variable(
         ("time", "node"),
         "m",
         "how far the wire's surface has slid on the wall so far",
-        lambda r, _: r.slip,
     ),
-    "friction_work": Variable(
-        ("time",), "J", "what friction has taken so far", lambda r, _: r.friction_work
-    ),
+    "friction_work": Variable(("time",), "J", "what friction has taken so far"),
     "wall_indentation": Variable(
         ("time", "node"),
         "m",
         "how far each node presses the wall in",
-        lambda r, _: r.wall_indentation,
     ),
     "wall_displacement": Variable(
         ("time", "node", "xyz"),
         "m",
         "how far the wall has moved at each node",
-        lambda r, _: r.wall_displacement,
     ),
-    "wall_work": Variable(
-        ("time",), "J", "what the wall that moves has done to the wire", lambda r, _: r.wall_work
-    ),
+    "wall_work": Variable(("time",), "J", "what the wall that moves has done to the wire"),
     "guide_twist": Variable(
         ("time",),
         "rad",
         "angle by which the guide has turned the wire about its axis",
-        lambda r, _: r.guide_twist,
     ),
     "tip_twist": Variable(
         ("time",),
         "rad",
         "angle by which the tip is turned about its axis, against an untwisted wire",
-        lambda r, _: r.tip_twist,
     ),
     "material_director": Variable(
         ("time", "node", "xyz"),
         "1",
         "first material director of the edge from each node, of the last edge at the tip",
-        lambda r, _: r.material_director,
     ),
-    "push_force": Variable(
-        ("time",), "N", "force of the guide on the wire, along the guide", lambda r, _: r.push_force
-    ),
+    "push_force": Variable(("time",), "N", "force of the guide on the wire, along the guide"),
     "insertion_force": Variable(
         ("time",),
         "N",
         "force that feeds the wire through the guide: push less what the bend at its mouth does",
-        lambda r, _: r.insertion_force,
     ),
     "guide_torque": Variable(
         ("time",),
         "N m",
         "torque of the guide on the wire, about the guide",
-        lambda r, _: r.guide_torque,
     ),
     "tip_departure": Variable(
         ("time",),
         "m",
         "distance of the tip from where the navigator's model has it, "
         "largest since the record before",
-        lambda r, _: r.tip_departure,
     ),
     "newton_iterations": Variable(
         ("time",),
         "1",
         "Newton iterations per step, mean since the record before",
-        lambda r, _: r.newton_iterations,
     ),
     "stable": Variable(
         ("time",),
         "1",
         "whether the tangent stiffness is positive definite; under friction, whether it stays",
-        lambda r, _: int(r.stable),
+        None,
         np.dtype(np.int8),
         (("flag_values", np.array([0, 1], dtype=np.int8)), ("flag_meanings", "unstable stable")),
     ),
-    "wall_time": Variable(
-        ("time",), "s", "time spent since the start of the run", lambda r, _: r.totals.wall_time
-    ),
+    "wall_time": Variable(("time",), "s", "time spent since the start of the run"),
     "normalized_push": Variable(
         ("time",),
         "1",
         "insertion length over length of the wire",
-        lambda r, i: r.feed / i.scales.length,
+        lambda r, i: r["feed"] / i.scales.length,
     ),
     "normalized_field": Variable(
         ("time", "xyz"),
         "1",
         "flux density at the tip times |M| L^2 / EI",
-        lambda r, i: np.asarray(r.flux_density) / i.scales.flux_density,
+        lambda r, i: r["flux_density"] / i.scales.flux_density,
     ),
     "normalized_tip_force": Variable(
-        ("time",), "1", "tip force times L^2 / EI", lambda r, i: r.tip_force / i.scales.force
+        ("time",), "1", "tip force times L^2 / EI", lambda r, i: r["tip_force"] / i.scales.force
     ),
 }
 
@@ -342,11 +312,16 @@ def sizes(info: RunInfo, layout: Layout) -> dict[str, int]:
 
 
 def derive(columns: Columns, layout: Layout) -> dict[str, NDArray[Any]]:
-    """The columns that follow from those of the records."""
-    known = dict(columns) | {NODE_FORCE: forces.sizes(columns["contact_force"])}
+    """The columns that follow from those of the records: of each from its own numbers alone."""
+    size = forces.sizes(columns["contact_force"])
+    touches = size.any(axis=1)
+    # All that do not touch the wall have the same: one of them stands for them.
+    some = np.append(np.flatnonzero(touches), np.flatnonzero(~touches)[:1])
+    which = np.where(touches, np.cumsum(touches) - 1, len(some) - 1)
+    known: Columns = {"position": columns["position"][some], NODE_FORCE: size[some]}
     for name, derived in DERIVED.items():
-        known[name] = derived.read(known, layout)
-    return {name: known[name] for name in DERIVED}
+        known = {**known, name: derived.read(known, layout)}
+    return {name: known[name][which] for name in DERIVED}
 
 
 def plain(text: str) -> str:

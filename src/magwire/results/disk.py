@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+import shutil
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, cast
 
-from magwire.files import successor
+import numpy as np
+from numpy.typing import NDArray
+
+from magwire.files import draft_of, successor
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+CHUNK_CACHE = 0
+"""Memory that HDF5 keeps of each variable: rows come in pieces that are larger [bytes]."""
 
 
 class Sink:
@@ -89,30 +98,73 @@ class Sink:
                 self._failure = error
 
 
-def change(path: Path, act: Callable[[Any], None]) -> None:
-    """Change an HDF5 file where it is.
+class Draft:
+    """A copy of a NetCDF-4 file that gets more records, and then takes the file's place.
+
+    Rows are added through h5py, as all that is special about NetCDF-4 is in the file by now.
 
     Parameters
     ----------
     path
         The file.
-    act
-        Called with the open file.
 
     Raises
     ------
     OSError
-        If there is no room, or the file cannot be written; it is spoilt then.
+        By all it does, if there is no room or the file cannot be written; it is spoilt then, and
+        to be dropped.
     """
-    import h5py
 
-    with path.open("r+b", buffering=0) as file:
-        sink = Sink(cast("IO[bytes]", file))
+    def __init__(self, path: Path) -> None:
+        import h5py
+
+        self._path, self._copy = path, draft_of(path)
+        self._sets: dict[str, Any] = {}
+        with ExitStack() as stack:
+            stack.callback(self._copy.unlink, missing_ok=True)
+            shutil.copyfile(path, self._copy)
+            raw = stack.enter_context(self._copy.open("r+b", buffering=0))
+            self._sink = Sink(cast("IO[bytes]", raw))
+            self._file = stack.enter_context(h5py.File(self._sink, "r+", rdcc_nbytes=CHUNK_CACHE))
+            self._ending = stack.pop_all()
+
+    def read(self, name: str, count: int) -> Any:
+        """The first numbers of a variable."""
+        return self._file[name][:count]
+
+    def add(self, first: int, columns: Mapping[str, NDArray[Any]]) -> None:
+        """Put rows of variables behind the first ones, and forget what was there before."""
+        from h5py import h5s
+
+        for name, values in columns.items():
+            if name not in self._sets:
+                self._sets[name] = self._file[name].id
+            held = self._sets[name]
+            held.set_extent((first + len(values), *values.shape[1:]))
+            if len(values):
+                space = held.get_space()
+                space.select_hyperslab((first,) + (0,) * (values.ndim - 1), values.shape)
+                held.write(h5s.create_simple(values.shape), space, np.ascontiguousarray(values))
+        self._sink.settle()
+
+    def take_its_place(self, attributes: Mapping[str, Any]) -> None:
+        """Replace the file, with these attributes."""
+        self._sets.clear()
         try:
-            with h5py.File(sink, "r+") as opened:
-                act(opened)
+            for name, value in attributes.items():
+                self._file.attrs.modify(name, value)
+            self._file.close()
         finally:
-            sink.settle()
+            self._sink.settle()
+        self._copy.replace(self._path)
+        self._ending.close()
+
+    def drop(self) -> None:
+        """Leave the file as it is."""
+        self._sets.clear()
+        # A file that could not be written may not be closed in order, either.
+        with suppress(OSError, RuntimeError):
+            self._ending.close()
 
 
 def create(path: Path, fill: Callable[[Any], None]) -> None:

@@ -66,6 +66,15 @@ class Layout:
         return found
 
     @cached_property
+    def spread(self) -> dict[int, Array]:
+        """How forces are smoothed along the wire: diagonals of a matrix, by their number [1/m]."""
+        here, there = self.station[:, None], self.station
+        images = (there, -there, 2.0 * self.length - there)
+        whole = np.sum([_hat(here - x, self.patch) for x in images], axis=0)
+        node, other = np.nonzero(whole)
+        return {int(k): np.diagonal(whole, k) for k in np.unique(other - node)}
+
+    @cached_property
     def _along(self) -> Array:
         """Arc parameter of the points of the path, shape (q,) [m]."""
         steps = np.linalg.norm(np.diff(self.way[:, :3], axis=0), axis=1)
@@ -151,9 +160,13 @@ def per_length(layout: Layout, force: Array) -> Array:
     The hat reaches one patch to either side and is mirrored at the ends of the wire: the integral
     is the sum of the forces.
     """
-    here, there = layout.station[:, None], layout.station
-    images = (there, -there, 2.0 * layout.length - there)
-    found: Array = force @ np.sum([_hat(here - x, layout.patch) for x in images], axis=0).T
+    spread, nodes = layout.spread, layout.nodes
+    found = np.zeros(force.shape)
+    # Diagonal by diagonal, not as a product of matrices: that is rounded by how many records there
+    # are at once.
+    for k, share in spread.items():
+        here, there = slice(max(0, -k), nodes - max(0, k)), slice(max(0, k), nodes + min(0, k))
+        found[:, here] += share * force[:, there]
     return found
 
 
@@ -166,7 +179,7 @@ def magnet(layout: Layout, force: Array) -> Array:
     if not end > begin:
         return np.full(len(force), np.nan)
     inside = np.diff(np.clip(layout.bounds, begin, end)) / np.diff(layout.bounds)
-    found: Array = force @ inside
+    found: Array = (force * inside).sum(axis=1)
     return found
 
 

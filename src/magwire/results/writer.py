@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 import errno
-import math
 import os
-import shutil
 import time
-from bisect import bisect_left
 from collections.abc import Callable
 from contextlib import ExitStack
+from functools import cached_property
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Self, cast
 
 import numpy as np
 
 import magwire
 from magwire.engine.record import Record, RunInfo
 from magwire.errors import ResultError
-from magwire.files import claimed, draft_of
+from magwire.files import claimed
 from magwire.interrupt import Terminated
 from magwire.pieces import Column, Plain
 from magwire.results import disk
@@ -37,6 +35,7 @@ from magwire.results.contract import (
     running_attributes,
     sizes,
 )
+from magwire.results.rows import Held, Rows
 from magwire.status import RunStatus
 
 if TYPE_CHECKING:
@@ -47,10 +46,8 @@ FLUSH_SECONDS = 2.0
 FLUSH_SHARE = 0.03
 """Share of the wall time that flushing may take: flushes of a very large file come less often."""
 CHUNK_BYTES = 2**16
-MOST_WAITING = 2**22
-"""Memory of the records that wait for a flush, about [bytes]."""
-RECORD_BYTES = 4096
-"""What a record takes besides its numbers, about [bytes]."""
+MOST_WAITING = 2**23
+"""Memory of the records that wait for a flush, and of the first ones without a file [bytes]."""
 SAME = 1e-9
 """Times that differ by less are the same [s]."""
 
@@ -88,31 +85,37 @@ class Writer:
         self.sizes = sizes(info, self.layout)
         self.path = None if path is None else Path(path)
         self.closed = False
-        self._waiting: list[Record] = []
+        self._waiting = Rows(info, MOST_WAITING)
+        self._kept = Held()
         self._last: Record | None = None
         self._written = 0
         self._due = 0.0
-        self._draft: Path | None = None
+        self._draft: disk.Draft | None = None
         self._flushed: tuple[int, Record | None] = (0, None)
         self._claim = ExitStack()
         self._attributes = opening_attributes(info, self.layout, magwire.__version__)
-        row = sum(v.dtype.itemsize * self._numbers(v) for v in VARIABLES.values())
-        self._most = max(1, MOST_WAITING // (row + RECORD_BYTES))
         self._attributes |= {"status": RunStatus.RUNNING.value, "message": ""}
         self._attributes |= running_attributes(None)
         if self.path is not None:
             self._begin(self.path)
 
     def append(self, record: Record) -> None:
-        """Take a record; its arrays must not be changed afterwards."""
+        """Take a record."""
         self._last = record
         self._waiting.append(record)
         if self.path is None:
-            return
-        if time.monotonic() >= self._due:
+            if self._waiting.full:
+                self._hold()
+        elif time.monotonic() >= self._due:
             self.flush()
-        elif len(self._waiting) >= self._most:
+        elif self._waiting.full:
             self._try(self._put_aside)
+
+    def _hold(self) -> None:
+        """Keep what waits in memory for good."""
+        self._kept.add(self._written, self._columns())
+        self._written += len(self._waiting)
+        self._waiting = Rows(self.info, MOST_WAITING)
 
     def rewind(self, record: Record) -> None:
         """Go on from a record of a wire that went back: what was recorded since is dropped.
@@ -120,7 +123,7 @@ class Writer:
         A file keeps what was flushed until the next flush, which takes it out.
         """
         kept = self._before(record.time - SAME)
-        del self._waiting[max(0, kept - self._written) :]
+        self._waiting.drop(max(0, kept - self._written))
         self._written = min(self._written, kept)
         if kept < self._flushed[0]:
             self._flushed = (kept, record)
@@ -128,18 +131,20 @@ class Writer:
 
     def _before(self, time: float) -> int:
         """How many records are of a time [s] before this one."""
-        waiting = bisect_left(self._waiting, time, key=lambda record: record.time)
-        there = self._draft or self.path
-        if waiting or not self._written or there is None:
+        waiting = self._waiting.before(time)
+        if waiting or not self._written:
             return self._written + waiting
-        import h5py  # a file is asked only if it must be
+        there = self._kept if self.path is None else self._draft
+        if there is not None:
+            return int(np.searchsorted(there.read("time", self._written), time))
+        import h5py
 
-        with h5py.File(there) as file:
+        with h5py.File(cast(Path, self.path)) as file:
             return int(np.searchsorted(file["time"][: self._written], time))
 
     def flush(self) -> None:
         """Bring what waits in memory into the file, so that it survives the end of the process."""
-        if self.path is None or self.closed or not (self._waiting or self._draft):
+        if self.path is None or self.closed or not (self._waiting or self._draft is not None):
             return
         begin = time.monotonic()
         self._try(self._commit)
@@ -176,7 +181,7 @@ class Writer:
 
         if not self.closed:
             raise ResultError("A result can be had from its writer only after the run has ended.")
-        return Result.of(self._held()) if self.path is None else Result.load(self.path)
+        return Result.of(self._held) if self.path is None else Result.load(self.path)
 
     def __enter__(self) -> Self:
         return self
@@ -196,21 +201,18 @@ class Writer:
         else:
             self.close(RunStatus.FAILED, str(error) or type(error).__name__)
 
-    def _columns(self, records: list[Record]) -> dict[str, Any]:
-        """The variables of some records, each with time as its first axis."""
-        columns = {
-            name: np.array([v.read(r, self.info) for r in records], dtype=v.dtype).reshape(
-                len(records), *(self.sizes[dim] for dim in v.dims[1:])
-            )
-            for name, v in VARIABLES.items()
-        }
+    def _columns(self) -> dict[str, Any]:
+        """The variables of the records that wait, each with time as its first axis."""
+        columns = self._waiting.columns()
         derived = derive(columns, self.layout)
         return columns | {name: derived[name] for name in derived if self._exists(DERIVED[name])}
 
+    @cached_property
     def _held(self) -> Plain:
         """What has been recorded in memory."""
         data: dict[str, Column] = {}
-        for name, column in self._columns(self._waiting).items():
+        self._hold()
+        for name, column in self._kept.columns().items():
             variable = (VARIABLES | DERIVED)[name]
             notes = {"units": variable.units, "long_name": variable.long_name}
             data[name] = Column(variable.dims, column, notes | dict(variable.extra))
@@ -258,49 +260,31 @@ class Writer:
 
     def _commit(self, path: Path, **attributes: str) -> None:
         """Add what waits, and these attributes, to the file: all of it or nothing."""
-        self._put_aside(path, **attributes)
+        self._put_aside(path)
         if self._draft is not None:
-            self._draft.replace(path)
+            self._draft.take_its_place(running_attributes(self._last) | attributes)
         self._draft, self._flushed = None, (self._written, self._last)
 
-    def _put_aside(self, path: Path, **attributes: str) -> None:
-        """Add what waits to a draft that is to take the place of the file.
-
-        Rows are added through h5py, as all that is special about NetCDF-4 is in the file by now.
-        """
-        last = self._written + len(self._waiting)
-
-        def add(file: Any) -> None:
-            for name, column in self._columns(self._waiting).items():
-                file[name].resize(last, axis=0)
-                file[name][self._written :] = column
-            for name, value in running_attributes(self._last).items():
-                file.attrs.modify(name, value)
-            file.attrs.update(attributes)
-
+    def _put_aside(self, path: Path) -> None:
+        """Add what waits to a draft that is to take the place of the file."""
         try:
             if self._draft is None:
-                self._draft = draft_of(path)
-                shutil.copyfile(path, self._draft)
-            disk.change(self._draft, add)
+                self._draft = disk.Draft(path)
+            self._draft.add(self._written, self._columns())
         except BaseException:
             # Rows that were put aside are lost with the draft, and those that follow would not fit.
             self._drop_draft()
             if self._written > self._flushed[0]:
-                self._waiting.clear()
+                self._waiting.drop(0)
                 self._written, self._last = self._flushed
             raise
-        self._written = last
-        self._waiting.clear()
+        self._written += len(self._waiting)
+        self._waiting.drop(0)
 
     def _drop_draft(self) -> None:
         if self._draft is not None:
-            self._draft.unlink(missing_ok=True)
+            self._draft.drop()
             self._draft = None
-
-    def _numbers(self, variable: Variable | Derived) -> int:
-        """How many numbers a record has of a variable."""
-        return math.prod(self.sizes[dim] for dim in variable.dims[1:])
 
     def _lay_out(self, file: Any) -> None:
         """All that is known from the start, and no records."""

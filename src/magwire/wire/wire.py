@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from numbers import Real
 
 from magwire.errors import (
@@ -184,7 +185,7 @@ class Wire:
         body, magnet = bare.cut(0.0, length - tip), whole.cut(length - tip, length)
         return cls((body, replace(magnet, length=tip)), nodes)
 
-    @property
+    @cached_property
     def length(self) -> float:
         """Length L [m]."""
         return math.fsum(section.length for section in self.sections)

@@ -180,17 +180,6 @@ def less_carried(movings, before, ahead, held, step):
 
 
 @kernel
-def displacements(movings, state, moved):
-    """Fill ``moved`` [N+1, 3] with the displacement of the tissue at the nodes."""
-    for i in range(state.q.shape[0]):
-        u = (0.0, 0.0, 0.0)
-        if i > state.held[0]:
-            u = displacement_at(movings, row(state.q, i))
-        for c in range(3):
-            moved[i, c] = u[c]
-
-
-@kernel
 def displacement_at(movings, x):
     """Displacement now of the tissue that is at x."""
     if len(movings) == 0:

@@ -372,15 +372,15 @@ def held_by(frictions, state, i):
 
 
 @kernel
-def tractions(rod, friction, state, forces):
-    """Fill ``forces`` [N+1, 3] with the friction of the wall on the nodes of a state at rest."""
-    for i in range(state.q.shape[0]):
+def tractions(rod, friction, state, forces, scale):
+    """Fill ``forces`` [N, 3] with the friction of the wall on the nodes of a state at rest."""
+    for i in range(1, state.q.shape[0]):
         for c in range(3):
-            forces[i, c] = 0.0
+            forces[i - 1, c] = 0.0
         if i > state.held[0] and friction.load[i, 3] > 0.0:
             _, pull, _ = pull_at(rod, friction, state, i)
             for c in range(3):
-                forces[i, c] = -pull[c]
+                forces[i - 1, c] = -pull[c] * scale
 
 
 # A wall holds its friction in a tuple, which is empty where there is none. The length of a tuple is
@@ -405,8 +405,8 @@ def keep_contacts(frictions, rod, state, ahead):
 
 
 @kernel
-def read_friction(frictions, rod, state, held, forces):
+def read_friction(frictions, rod, state, held, forces, scale):
     """Recall the contacts of a state and fill ``forces`` with their friction, if there is any."""
     if len(frictions) > 0:
         recall(frictions[0], state, held)
-        tractions(rod, frictions[0], state, forces)
+        tractions(rod, frictions[0], state, forces, scale)
