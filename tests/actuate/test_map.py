@@ -110,6 +110,17 @@ def test_files(tmp_path: Path, name: str, write: object) -> None:
     np.testing.assert_allclose(found.step, STEP, rtol=1e-12)
 
 
+def test_a_turned_image_is_refused(tmp_path: Path) -> None:
+    place = tmp_path / "b.vti"
+    write_image(place, sampled())
+    text = place.read_text()
+    place.write_text(text.replace(" Spacing=", ' Direction="1 0 0 0 1 0 0 0 1" Spacing='))
+    np.testing.assert_allclose(read_grid(place).first, FIRST, atol=1e-15)
+    place.write_text(text.replace(" Spacing=", ' Direction="0 -1 0 1 0 0 0 0 1" Spacing='))
+    with pytest.raises(InputError, match=r"axes along x, y and z.*received 0 -1 0 1 0 0 0 0 1"):
+        read_grid(place)
+
+
 @pytest.mark.parametrize(
     ("name", "text", "sentence"),
     [

@@ -71,7 +71,8 @@ def read_grid(path: str | Path) -> FieldGrid:
     path
         .csv: columns x, y, z [m] and Bx, By, Bz [T], with their names in the first row, points in
         any order; .nc: NetCDF-3 with variables x, y, z [m] and Bx, By, Bz [T] over them; .vti: a
-        VTK image in ASCII, with one array of three components [T], origin and spacing [m].
+        VTK image in ASCII, with one array of three components [T], origin and spacing [m],
+        its axes along x, y and z.
 
     Raises
     ------
@@ -186,6 +187,12 @@ def _image(data: bytes, name: str) -> FieldGrid:
     kind = dict(re.findall(r'(\w+)="([^"]*)"', body[1]))
     if kind.get("format") != "ascii" or kind.get("NumberOfComponents") != "3":
         raise InputError(f"{name} must have one array of 3 components in ASCII.")
+    turn = marks.get("Direction", "1 0 0 0 1 0 0 0 1")  # VTK 9 writes it with every image
+    if not _unturned(turn):
+        raise InputError(
+            f"{name} must have its axes along x, y and z, Direction 1 0 0 0 1 0 0 0 1; "
+            f"received {' '.join(turn.split())}."
+        )
     try:
         extent = [int(v) for v in marks["WholeExtent"].split()]
         step = np.array([float(v) for v in marks["Spacing"].split()])
@@ -199,3 +206,11 @@ def _image(data: bytes, name: str) -> FieldGrid:
             f"{name} must have WholeExtent, Spacing and Origin that fit its array."
         ) from None
     return FieldGrid(origin + step * np.array(low), step, values)
+
+
+def _unturned(direction: str) -> bool:
+    """Whether an image's direction matrix, by rows, is the identity."""
+    try:
+        return bool(np.allclose(np.array(direction.split(), float).reshape(3, 3), np.eye(3)))
+    except ValueError:
+        return False
