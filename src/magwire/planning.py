@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,12 +17,15 @@ from magwire.kernels.wall.barrier import barrier
 from magwire.lumen import Lumen
 from magwire.lumen.branch import Bend
 from magwire.navigate.demands import Demands
-from magwire.navigate.navigator import Prescribed
+from magwire.navigate.navigator import Navigator, Prescribed
 from magwire.navigate.schedule import Schedule, last_tries
 from magwire.navigate.tip import TipNavigator
 from magwire.simulation import Simulation
 from magwire.status import RunStatus
 from magwire.wire import Wire
+
+if TYPE_CHECKING:
+    from magwire.results import Result
 
 Array = NDArray[np.float64]
 
@@ -107,8 +111,8 @@ def plan(
 ) -> list[Prospect]:
     """Steer a wire to every outlet of a lumen, by equilibria (P-16, P-22), and replay each course.
 
-    Programmes need a wall that gives way (``firm_wall``). What is reported is a replay of their
-    field with inertia, at the wall that fits the wire, as in every run.
+    Programmes need a wall that gives way (``firm_wall``). What is reported is what a wire with
+    inertia does in their field, open loop, at the wall that fits it, as in every run.
 
     Parameters
     ----------
@@ -148,7 +152,7 @@ def plan(
     for name in outlets or lumen.outlets or ("outlet",):
         if watch is not None:
             watch(name)
-        there = replace(lumen, target=name) if lumen.outlets else lumen
+        there = lumen.towards(name) if lumen.outlets else lumen
         found.append(
             _prospect(name, there, wire, Demands() if demands is None else demands, contact)
         )
@@ -264,29 +268,34 @@ class _Course:
     every: float
     goal: float
 
+    def run(self, distance: float, navigator: Navigator) -> Result:
+        """Feed the wire on with inertia until its tip is at the goal, or by a distance [m]."""
+        return self.replayed.run(
+            Feed(self.feed.fastest, distance),
+            navigator,
+            time_step=self.every / self.feed.fastest,
+            record_every=self.every,
+            update_every=self.every,
+            until=self.goal,
+        )
+
 
 def _travel(nothing: Prospect, course: _Course, demands: Demands) -> Prospect:
-    """Plan the way by equilibria, replay it with inertia: what it takes is what the replay says."""
+    """Plan ahead of a wire that moves with inertia: what it takes is what that wire says.
+
+    The plan does not hang on what the wire does, unless its tip goes astray: what is seen is the
+    course replayed open loop. Where the wire was taken back to try again, the last tries are
+    replayed from the entrance.
+    """
     every, goal = course.every, course.goal
-    plan = course.planned.run(
-        course.feed,
-        TipNavigator(demands, update_every=every, plan_every=every, attempts=ATTEMPTS),
-        motion="quasi-static",
-        record_every=every,
-        until=goal,
-    )
-    if len(plan.feed) == 0 or not plan.feed.max() > 0.0:
-        return replace(nothing, reason=plan.message)
-    tried = last_tries(plan.feed)
-    schedule = Schedule(plan.feed[tried], plan.field[tried])
-    result = course.replayed.run(
-        Feed(course.feed.fastest, float(schedule.feed[-1])),
-        Prescribed(schedule),
-        time_step=every / course.feed.fastest,
-        record_every=every,
-        update_every=every,
-        until=goal,
-    )
+    steering = TipNavigator(demands, update_every=every, plan_every=every, attempts=ATTEMPTS)
+    planned = course.run(course.feed.largest, steering.start(course.planned.system))
+    if len(planned.feed) == 0 or not planned.feed.max() > 0.0:
+        return replace(nothing, reason=planned.message)
+    tried, result = last_tries(planned.feed), planned
+    if len(tried) < len(planned.feed):
+        schedule = Schedule(planned.feed[tried], planned.field[tried])
+        result = course.run(float(schedule.feed[-1]), Prescribed(schedule))
     arc = np.array([course.replayed.tip_arc(position) for position in result.position])
     flux = np.linalg.norm(result.field, axis=1)
     found = replace(
@@ -302,7 +311,7 @@ def _travel(nothing: Prospect, course: _Course, demands: Demands) -> Prospect:
         push_force=result.max_push_force,
         guide_torque=result.max_guide_torque,
         clearance=result.smallest_clearance,
-        reason=plan.message,
+        reason=planned.message,
         feed=result.feed,
         arc=arc,
         flux_density=flux,
@@ -310,18 +319,17 @@ def _travel(nothing: Prospect, course: _Course, demands: Demands) -> Prospect:
     )
     if found.reached:
         return found
-    planned = course.planned.tip_arc(plan.position[-1])
     left = f"{1e3 * (goal - found.came):.4g} mm are left"
-    if plan.status != RunStatus.COMPLETE:
-        reason = plan.message
-    elif planned < goal:
-        reason = f"All of the wire is inserted, and {left}. {plan.message}"
+    if planned.status != RunStatus.COMPLETE:
+        reason = planned.message
+    elif course.replayed.tip_arc(planned.position[-1]) < goal:
+        reason = f"All of the wire is inserted, and {left}. {planned.message}"
     else:
         reason = f"A course of the field was planned, but replayed with inertia {left}."
     bound = found.peak_field >= AT_LIMIT * demands.max_field  # then more field would do
     advice = "" if bound else remedy(course.replayed.system, found.came)
-    said = (reason.strip(), result.message, advice)
-    return replace(found, reason=" ".join(filter(None, said)))
+    replayed = "" if result is planned else result.message
+    return replace(found, reason=" ".join(filter(None, (reason.strip(), replayed, advice))))
 
 
 def remedy(system: System, came: float) -> str:

@@ -435,3 +435,17 @@ def test_a_chain_of_tubes_has_paths_through_all_before_them() -> None:
     tree = Lumen.tree(tubes)
     assert [tree.path(str(k)).length for k in (5, 2)] == pytest.approx([0.14, 0.08], rel=0.02)
     np.testing.assert_allclose(tree.path("5").entrance, 0.0, atol=1e-12)
+
+
+@EACH
+def test_towards_another_outlet_nothing_is_made_again(name: str) -> None:
+    tree = TREES[name]
+    for outlet in tree.outlets:
+        other = tree.towards(outlet)
+        assert other.target == outlet
+        assert other.length == tree.paths[outlet].length
+        assert other.path() is tree.path(outlet)
+        assert other.arrays().cells is tree.arrays().cells
+    assert replace(tree, target=tree.outlets[-1]).arrays().cells is not tree.arrays().cells
+    with pytest.raises(InputError, match="must be one of the outlets"):
+        tree.towards("nowhere")

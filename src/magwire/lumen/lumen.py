@@ -409,6 +409,24 @@ class Lumen:
         """Names of a tree's outlets, in the order of its branches; empty for a single tube."""
         return tuple(self.paths)
 
+    def towards(self, target: str) -> Lumen:
+        """The same lumen with another outlet to go to; what was made for this one is shared.
+
+        Parameters
+        ----------
+        target
+            Name of the outlet.
+
+        Raises
+        ------
+        InputError
+            If there is no such outlet.
+        """
+        other = replace(self, target=self._known("target", target))
+        for made in ("_search", "_wall", "_ways"):
+            other.__dict__[made] = getattr(self, made)
+        return other
+
     def path(self, target: str | None = None) -> Lumen:
         """The path from the entrance to an outlet as a lumen of one branch.
 
