@@ -15,6 +15,7 @@ from magwire.cli import main
 from magwire.errors import InputError
 from magwire.vessel import Vessel
 from magwire.vessel.files import load
+from magwire.vessel.survey import courses
 
 FOLDER = Path(__file__).parents[1] / "data" / "vessels"
 SURFACES = Path(os.environ.get("MAGWIRE_CASES", ""))
@@ -106,11 +107,50 @@ def test_a_line_of_an_obj_takes_one_radius() -> None:
 
 def test_vertebral_arteries_make_a_loop() -> None:
     vessel = reads("c28_vertebrals_join_loop.csv", None)
-    assert any("A loop of 347 mm is opened near" in note for note in vessel.notes)
-    assert "basilar" in vessel.lumen().outlets
+    (note,) = [note for note in vessel.notes if "A loop of 347 mm is opened near" in note]
+    assert "at a fork, since the way on turns back there" in note
+    assert vessel.lumen().outlets == ("aorta", "basilar", "cut-1")
     cut = [(30e-3, 20e-3, 60e-3)]
     with pytest.raises(InputError, match="cannot be cut near"):
         reads("c28_vertebrals_join_loop.csv", None, cut=cut)
+
+
+@pytest.mark.parametrize(
+    ("unit", "turn", "backwards", "power"),
+    [("cm", 1.1, False, 1), ("m", -0.4, True, 1), ("cm", 1.1, True, 2), ("m", -0.4, False, 2)],
+)
+def test_other_loops_are_opened_where_ways_go_on(
+    unit: str, turn: float, backwards: bool, power: int, tmp_path: Path
+) -> None:
+    """Two arteries of other lengths and radii that meet at 40 or at 74 degrees; both stay.
+
+    Their lines end in the trunk, beside the points of its line.
+    """
+    s = np.linspace(0.0, 1.0, 101)[:, None]
+    trunk = np.hstack([90 * s - 40, 0 * s, 0 * s]), 6.0
+    left = np.hstack([-20 + 20 * s**power, 6 * np.sin(np.pi * s), 60 * s]), 1.2
+    right = np.hstack([25 - 25 * s**power, -8 * np.sin(np.pi * s), 60 * s]), 1.4
+    onward = np.hstack([0 * s, 0 * s, 60 + 30 * s]), 1.5
+    about = np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]])
+    names = {"trunk": trunk, "left": left, "right": right, "onward": onward}
+    factor = {"cm": 0.1, "m": 1e-3}[unit]
+    rows = [f"line,x [{unit}],y [{unit}],z [{unit}],radius [{unit}]"]
+    for name, (points, radius) in reversed(names.items()) if backwards else names.items():
+        for x, y, z in factor * points[:: -1 if backwards else 1] @ about.T:
+            rows.append(f"{name},{x},{y},{z},{factor * radius}")
+    (tmp_path / "a.csv").write_text("\n".join(rows))
+    entrance = (1e-3 * trunk[0][0] @ about.T).tolist()
+    vessel = Vessel.read(tmp_path / "a.csv", entrance=entrance)
+    (note,) = [note for note in vessel.notes if "A loop of" in note]
+    assert ("at a fork, since" in note) == (power == 1)
+    assert not any("left out" in note for note in vessel.notes)
+    lumen = vessel.lumen()
+    assert len(lumen.outlets) == len(vessel.ends) - 1
+    for points, radius in names.values():
+        inside = 1e-3 * points[5:-5] @ about.T
+        gap = lumen.gap(inside)
+        # all but the rest of a cut of a few radii
+        assert np.mean(gap < 0.6e-3 * radius) < 0.12
 
 
 def test_a_side_branch_at_a_wide_end_leaves_the_trunk() -> None:
@@ -120,7 +160,31 @@ def test_a_side_branch_at_a_wide_end_leaves_the_trunk() -> None:
     s = np.linspace(0.0, 0.1, 60)
     points = np.column_stack([s, 0 * s, -0.97 * 15e-3 + 0.0083 * s])
     assert lumen.gap(points).min() > 0.0
-    assert any("'side' by 8.6" in note for note in vessel.notes)
+    shares_the_trunk(vessel, "side", 15e-3, 1e-3)
+
+
+def shares_the_trunk(vessel: Vessel, side: str, wide: float, narrow: float) -> None:
+    """The path to a side branch is as wide as the trunk in it, and loses next to nothing."""
+    assert vessel.ways[side].narrowed < 0.1 * narrow
+    assert not any("narrower" in note for note in vessel.notes)
+    (course,) = [c for c in courses(vessel) if c.name == side]
+    assert course.radii[0] == pytest.approx(narrow, rel=0.05)
+    assert course.radii[1] == pytest.approx(wide, rel=0.05)
+
+
+@pytest.mark.parametrize(("at", "mouth"), [(1.0, 0.2), (0.4, 0.3), (3.0, 0.15)])
+def test_other_side_branches_at_wide_ends_do_too(at: float, mouth: float, tmp_path: Path) -> None:
+    """Trunks of 8 mm, with a branch at some radii from the entrance that tapers to 1.2 mm."""
+    s = np.linspace(0.0, 1.0, 90)[:, None]
+    trunk = np.hstack([7 * s, 90 * s, 5 * s]), np.full(90, 8.0)
+    start = trunk[0][0] + at * 8.0 * np.array([7, 90, 5]) / 90.4
+    side = start + s * np.array([30.0, 4.0, 10.0]), 8 * mouth + s[:, 0] * (1.2 - 8 * mouth)
+    rows = ["line,x [mm],y [mm],z [mm],radius [mm]"]
+    for name, (points, radius) in {"small": side, "big": trunk}.items():
+        rows += [f"{name},{x},{y},{z},{r}" for (x, y, z), r in zip(points, radius, strict=True)]
+    (tmp_path / "a.csv").write_text("\n".join(rows))
+    vessel = Vessel.read(tmp_path / "a.csv", entrance=(0.0, 0.0, 0.0))
+    shares_the_trunk(vessel, "small", 8e-3, 1.2e-3)
 
 
 def test_marks_of_a_converted_file_stay_in_every_encoding() -> None:

@@ -155,7 +155,7 @@ def _verdict(course: survey.Course, wire: dict[str, str | None]) -> str:
     young = 0.0 if modulus is None else parse(modulus, "pressure", "--youngs-modulus")
     found = survey.reach(course, radius, young * math.pi * radius**4 / 4.0)
     if not found.fits:
-        return f"no, {show(course.radii[0] * 2.0, 'length')} wide at the narrowest"
+        return f"no, {show(course.passable * 2.0, 'length')} wide at the narrowest"
     if modulus is None:
         return "yes"
     needs = f"about {show(found.force, 'force')} to bend it"

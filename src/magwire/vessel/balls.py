@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
@@ -13,6 +14,8 @@ from magwire.vessel.files.drawing import Array
 
 NEIGHBOURS = 24  # balls of about one size that are compared: the deepest is among the nearest
 
+DENSER = 4  # times: what is between balls of tubes is less than a hundredth of the radius
+
 
 class Original(Protocol):
     """What a file says the vessel is."""
@@ -20,6 +23,13 @@ class Original(Protocol):
     def depth(self, points: Array) -> Array:
         """How deep points, shape (n, 3) [m], are inside, shape (n,) [m]; negative outside."""
         ...
+
+
+def closer(balls: Array, parts: int) -> Array:
+    """Balls along a line, shape (n, 4) [m], so many times as close together."""
+    shares = np.arange(1, parts)[:, None, None] / parts
+    more = (1.0 - shares) * balls[:-1] + shares * balls[1:]
+    return np.concatenate([balls, more.reshape(-1, 4)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,3 +59,9 @@ class Balls:
         """Balls of about one size each, since the deepest one need not be the nearest."""
         size = np.floor(np.log2(self.radius / self.radius.min())).astype(np.int64)
         return [(KDTree(self.points[size == k]), self.radius[size == k]) for k in np.unique(size)]
+
+
+def wall(tubes: Sequence[Array]) -> Balls:
+    """The union of tubes, of balls of shape (n, 4) [m] each, a quarter of a radius apart."""
+    every = np.concatenate([closer(balls, DENSER) for balls in tubes])
+    return Balls(every[:, :3], every[:, 3])

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from magwire.vessel.balls import Balls, Original
+from magwire.vessel.balls import Balls, Original, closer
 from magwire.vessel.files.drawing import Array
 from magwire.vessel.words import long
 
@@ -76,14 +76,9 @@ def _wall(tubes: Mapping[str, Array], count: int) -> tuple[Array, Array]:
     size = sum(float(np.sum(s * part[1:, 3])) for s, part in zip(steps, parts, strict=True))
     made = [_rings(part, step, count / size) for part, step in zip(parts, steps, strict=True)]
     walls, radius = (np.concatenate([pair[k] for pair in made]) for k in (0, 1))
-    union = np.concatenate([_finer(part) for part in parts])
+    union = np.concatenate([closer(part, 2) for part in parts])
     outer = Balls(union[:, :3], union[:, 3]).depth(walls) < INNER * radius
     return walls[outer], radius[outer]
-
-
-def _finer(balls: Array) -> Array:
-    """Balls twice as close together."""
-    return np.concatenate([balls, 0.5 * (balls[1:] + balls[:-1])])
 
 
 def _rings(balls: Array, steps: Array, density: float) -> tuple[Array, Array]:

@@ -18,6 +18,9 @@ NEIGHBOURS = 4  # points along a line that count as joined already
 BRIDGED = 2.0  # largest gap between a line's end and another line, over the radius
 NOTED = 0.5  # gap that is worth a word, over the radius
 POINTING = 8  # points by which an end of a line points
+LANDED = 0.5  # how far an end is from the line in whose tube it is, at most, over the radius
+ESCAPED = 2.0  # how far its own line goes from there, at least, over the radius
+ACROSS = 0.9  # largest cosine of the angle between the two
 PIECES = 200  # disconnected pieces that are looked at
 MOST_PAIRS = 5_000_000  # of points of lines that run along each other
 
@@ -160,6 +163,41 @@ def facing(
                     notes.append(f"A gap of {long(gap)} near {place(points[tip])} is bridged.")
                     break
     return np.array(found, dtype=np.int64).reshape(-1, 2), notes
+
+
+def landing(
+    points: Array, radius: Array, pairs: Indices, stand_in: Indices, first: Indices
+) -> Indices:
+    """Edges from open ends that lie inside of another line's tube, to that line, shape (m, 2).
+
+    So end the lines of a loop that do not quite touch. The line has to come from outside, across
+    the other one.
+    """
+    degree = np.bincount(np.unique(np.sort(pairs, axis=1), axis=0).ravel(), minlength=len(points))
+    tree, widest, found = KDTree(points), float(radius.max()), []
+    owner = np.repeat(np.arange(len(first) - 1), np.diff(first))
+    for line, (a, b) in enumerate(zip(first[:-1].tolist(), (first[1:] - 1).tolist(), strict=True)):
+        own = points[a : b + 1]
+        for tip, behind in ((a, min(a + POINTING, b)), (b, max(b - POINTING, a))):
+            if stand_in[tip] != tip or degree[tip] != 1:
+                continue
+            near = np.array(tree.query_ball_point(points[tip], widest), dtype=np.int64)
+            near = near[owner[near] != line]
+            share = np.linalg.norm(points[near] - points[tip], axis=1) / radius[near]
+            if len(near) == 0 or share.min() > LANDED:
+                continue
+            other = int(near[np.argmin(share)])
+            start, stop = int(first[owner[other]]), int(first[owner[other] + 1]) - 1
+            ends = np.linalg.norm(points[[start, stop]] - points[other], axis=1)
+            away = float(np.linalg.norm(own - points[other], axis=1).max())
+            if ends.min() < radius[other] or away < ESCAPED * radius[other]:
+                continue
+            ahead = points[tip] - points[behind]
+            along = points[min(other + 1, stop)] - points[max(other - 1, start)]
+            size = float(np.linalg.norm(ahead) * np.linalg.norm(along))
+            if abs(ahead @ along) < ACROSS * size:
+                found.append((tip, int(stand_in[other])))
+    return np.array(found, dtype=np.int64).reshape(-1, 2)
 
 
 def ends(lines: list[Line], first: Indices, places: Indices, edges: csr_array) -> dict[str, int]:

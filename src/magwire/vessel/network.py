@@ -19,6 +19,8 @@ from magwire.vessel.words import long, place
 WIDE = 1.0  # how far apart the two sides of a loop are, at least, over the radius
 UNLIKE = 1e4  # largest radius over the smallest
 CUT = 1.2  # how far from where a loop is cut its two sides end, over the radius
+SHARP = -0.5  # cosine of a turn that smoothing does not get a lumen around: 120 degrees
+TURN = 3.0  # over how much path a turn is looked at, on each side of it, over the radius
 LOOPS = 32  # that are opened; the arteries of a brain have fewer
 BETWEEN = 2  # balls between two points of a line, which are a tenth of a radius apart
 MOST_LINES = 3000  # of a real vessel there are some hundreds
@@ -84,6 +86,8 @@ class Network:
         pairs = np.concatenate([pairs, bridges])
         facing, still_more = joining.facing(points, radius, pairs, stand_in, first)
         pairs = np.concatenate([pairs, facing])
+        landing = joining.landing(points, radius, pairs, stand_in, first)
+        pairs = np.concatenate([pairs, landing])
         kept, pairs = np.unique(pairs, return_inverse=True)
         pairs = pairs.reshape(-1, 2)
         places = np.full(len(points), -1)
@@ -144,8 +148,9 @@ class Network:
     def from_entrance(self, start: int) -> tuple[Network, Indices]:
         """The network with its loops opened, and the point before each on the path from a point.
 
-        A loop is opened where it is farthest from that point: where two paths to it are as long.
-        The points before are of shape (n,), negative where there is none.
+        A loop is opened where it is farthest from that point, where two paths to it are as long;
+        or, where one of them turns back at a fork before it, at that fork. The points before are of
+        shape (n,), negative where there is none.
 
         Raises
         ------
@@ -219,12 +224,37 @@ class Network:
         one, other = _sides(before, u, v)
         ring = self.points[np.concatenate([one, other[::-1]])]
         length = float(np.linalg.norm(np.diff(ring, axis=0, append=ring[:1]), axis=1).sum())
+        where = "where it is farthest from the entrance"
+        for path in (np.append(one, v), np.append(other, u)):
+            fork = self._turn_back(path, before)
+            if fork is not None:
+                u, v = int(path[fork]), int(path[fork + 1])
+                where = "at a fork, since the way on turns back there"
+                break
         opened = self._apart(u, v)
         words = (
-            f"A loop of {long(length)} is opened near {place(self.points[u])}, where it is "
-            "farthest from the entrance; 'cut' opens it elsewhere."
+            f"A loop of {long(length)} is opened near {place(self.points[u])}, {where}; "
+            "'cut' opens it elsewhere."
         )
         return replace(opened, notes=(*opened.notes, words))
+
+    def _turn_back(self, path: Indices, before: Indices) -> int | None:
+        """Where on a side of a loop the first fork is that a lumen cannot turn back at."""
+        start = int(before[path[0]])
+        points = self.points[path] if start < 0 else self.points[np.append(start, path)]
+        skip = len(points) - len(path)
+        along = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1)))
+        for k, node in enumerate(path[:-1].tolist()):
+            if len(self._beside(node)) < 3:
+                continue
+            here, reach = along[k + skip], TURN * self.radius[node]
+            stops = np.searchsorted(along, [here - reach, here + reach])
+            back, ahead = np.clip(stops, 0, len(points) - 1)
+            came, goes = points[k + skip] - points[back], points[ahead] - points[k + skip]
+            size = float(np.linalg.norm(came) * np.linalg.norm(goes))
+            if came @ goes < SHARP * size:
+                return k
+        return None
 
     def _beside(self, node: int) -> list[int]:
         """The points that a point is joined to."""
@@ -252,15 +282,28 @@ class Network:
         return replace(self, edges=kept, ends=ends)
 
     def _back(self, node: int, ahead: int) -> list[int]:
-        """Points from one away from its neighbour, up to a cut's half width or a junction."""
-        found, length = [node], 0.0
-        while length < CUT * self.radius[node]:
+        """Points from one away from its neighbour: half a cut's width and clear of other lines."""
+        arm, length = self._arm(node, ahead), 0.0
+        others = np.ones(len(self.points), dtype=bool)
+        others[[*arm, *self._arm(ahead, node)]] = False
+        tree = KDTree(self.points[others])
+        for k, at in enumerate(arm):
+            if k > 0:
+                length += float(np.linalg.norm(self.points[at] - self.points[arm[k - 1]]))
+            if length >= CUT * self.radius[node]:
+                off, nearest = tree.query(self.points[at])
+                if off >= CUT * self.radius[others][nearest]:
+                    return arm[: k + 1]
+        return arm
+
+    def _arm(self, node: int, ahead: int) -> list[int]:
+        """Points from one away from its neighbour, up to the last one before a fork."""
+        found = [node]
+        while True:
             onward = [n for n in self._beside(found[-1]) if n not in (ahead, *found[-2:])]
             if len(onward) != 1:
-                break
-            length += float(np.linalg.norm(self.points[onward[0]] - self.points[found[-1]]))
+                return found if len(found) < 2 or not onward else found[:-1]
             found.append(onward[0])
-        return found
 
 
 def _sides(before: Indices, u: int, v: int) -> tuple[Indices, Indices]:

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from magwire.lumen.branch import Bend, Branch
+from magwire.vessel.balls import wall
 from magwire.vessel.files import Drawing
 from magwire.vessel.files.drawing import Array
 from magwire.vessel.placement import Placement
@@ -37,13 +38,15 @@ class Course(NamedTuple):
     length
         Arc length [m].
     radii
-        Smallest and largest radius [m].
+        Smallest and largest radius of the vessel along it [m]: in a trunk that of the trunk.
     narrowest
         Arc parameter of the smallest radius [m].
     bend
         Smallest radius of curvature [m], and where.
     own
         Length that no path before it shares [m].
+    passable
+        Smallest radius of the path by itself [m]: a wire has to be thinner.
     """
 
     name: str
@@ -52,6 +55,7 @@ class Course(NamedTuple):
     narrowest: float
     bend: Bend
     own: float
+    passable: float
 
 
 class Reach(NamedTuple):
@@ -73,17 +77,20 @@ class Reach(NamedTuple):
 def courses(vessel: Vessel) -> list[Course]:
     """The paths to all outlets, in their order."""
     found, before = [], np.zeros((0, 4))
+    every = wall([np.column_stack([t.points, t.radius]) for t in vessel.tubes.values()])
     for name, tube in vessel.tubes.items():
         arcs = tube.curve.knots()
         balls = tube.curve.at(arcs)
-        thin = int(np.argmin(balls[:, 3]))
+        wide = np.maximum(balls[:, 3], every.depth(balls[:, :3]))
+        thin = int(np.argmin(wide))
         own = tube.length
         if len(before):
             distance, nearest = KDTree(before[:, :3]).query(balls[:, :3])
             shared = np.flatnonzero(distance <= 0.5 * before[nearest, 3])
             own = tube.length - float(arcs[shared[-1]]) if len(shared) else tube.length
-        radii = float(balls[thin, 3]), float(balls[:, 3].max())
-        found.append(Course(name, tube.length, radii, float(arcs[thin]), tube.bend_radius(), own))
+        radii, passable = (float(wide[thin]), float(wide.max())), float(balls[:, 3].min())
+        bend = tube.bend_radius()
+        found.append(Course(name, tube.length, radii, float(arcs[thin]), bend, own, passable))
         before = np.concatenate([before, balls])
     return found
 
@@ -101,7 +108,7 @@ def reach(course: Course, radius: float, stiffness: float) -> Reach:
         EI [N m^2].
     """
     bent = 0.0 if math.isinf(course.bend.radius) else stiffness / course.bend.radius**2
-    return Reach(radius < course.radii[0], bent)
+    return Reach(radius < course.passable, bent)
 
 
 def self_contacts(vessel: Vessel) -> Iterator[str]:

@@ -8,12 +8,12 @@ too sharp moves no other.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
-from magwire.vessel.balls import Original
+from magwire.vessel.balls import Original, wall
 from magwire.vessel.files.drawing import Array, Indices
 from magwire.vessel.network import Network
 from magwire.vessel.smooth import STEP, Smoothed, smooth
@@ -36,7 +36,8 @@ class Tube:
     shared
         How many of its points are shared.
     points, radius, narrowed
-        Its own ones, shapes (n, 3), (n,) and (n,) [m].
+        Its own ones, shapes (n, 3), (n,) and (n,) [m]; what was taken off the radius counts where
+        no other path is as wide.
     paces, deviation
         How far each of the file's points is along the path, in radii, and from it [m], (m,).
     """
@@ -115,6 +116,7 @@ def ways(
             )
         tubes[name] = made[1]
         owner.update((node, made[1]) for node in nodes if node not in owner)
+    tubes = _together(tubes, original)
     return Ways(tubes, (*notes, *_narrowed(tubes)))
 
 
@@ -169,6 +171,24 @@ def _tube(
         at[mine],
         found.deviation[mine],
     )
+
+
+def _together(tubes: dict[str, Tube], original: Original) -> dict[str, Tube]:
+    """The paths with what the vessel loses to them: in a wide trunk a narrow way loses nothing."""
+    if not tubes:
+        return tubes
+    every = wall([np.column_stack([tube.points, tube.radius]) for tube in tubes.values()])
+    made: dict[Tube, Tube] = {}
+    for tube in tubes.values():
+        lost = tube.narrowed.copy()
+        some = lost > 0.0
+        if some.any():
+            points = tube.points[some]
+            wide = np.minimum(tube.radius[some] + lost[some], original.depth(points))
+            lost[some] = np.clip(wide - every.depth(points), 0.0, lost[some])
+        parent = None if tube.parent is None else made[tube.parent]
+        made[tube] = replace(tube, parent=parent, narrowed=lost)
+    return {name: made[tube] for name, tube in tubes.items()}
 
 
 def _narrowed(tubes: dict[str, Tube]) -> list[str]:
