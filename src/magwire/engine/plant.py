@@ -131,7 +131,8 @@ class Plant:
         self._row[SMALLEST_CLEARANCE], self._row[TIP_DEPARTURE] = math.inf, math.nan
         self._sheet = sheet_of(self._row, self._kind)
         known = self.model, path, system.guide, self.state, self.work, limits, self._tally
-        self._body = make_body(Parts(*known, self._sheet))
+        self._parts = Parts(*known, self._sheet)
+        self._body = make_body(self._parts)
         self._patch = system.patch / system.wire.length
         self._turn = tuple(system.mesh.rest_turn[-1].tolist())
         self._seen = np.zeros(GLANCE)
