@@ -111,9 +111,7 @@ def half_circle(browser: Any, folder: Path, *, shaded: bool) -> None:
         simulated = page.evaluate("magwire.picture.time")
         how = "shaded" if shaded else "as it comes"
         wall = time.monotonic() - began
-        print(
-            f"from the command to the outlet, {how}: {wall:.0f} s, of which simulated {simulated:.0f}"
-        )
+        print(f"from the command to the outlet, {how}: {wall:.0f} s, {simulated:.0f} simulated")
         print(f"largest force on the tip with help: {max(tip_forces[5:]):.3g} N")
         page.click(".end")
         visitor.until("magwire.cockpit.done")
