@@ -153,7 +153,19 @@ def per_length(layout: Layout, force: Array) -> Array:
     """
     here, there = layout.station[:, None], layout.station
     images = (there, -there, 2.0 * layout.length - there)
-    found: Array = force @ np.sum([_hat(here - x, layout.patch) for x in images], axis=0).T
+    return _summed(force, np.sum([_hat(here - x, layout.patch) for x in images], axis=0))
+
+
+def _summed(force: Array, weights: Array) -> Array:
+    """Sums over the nodes with weights, shape (k, nodes), of each record alone, shape (t, k).
+
+    A product of matrices would have other last bits for other numbers of records, and how many are
+    written together hangs on the clock. Node by node and weights of zero left out.
+    """
+    found = np.zeros((len(force), len(weights)))
+    for node in range(force.shape[1]):
+        felt = np.flatnonzero(weights[:, node])
+        found[:, felt] += force[:, node, None] * weights[felt, node]
     return found
 
 
@@ -166,8 +178,7 @@ def magnet(layout: Layout, force: Array) -> Array:
     if not end > begin:
         return np.full(len(force), np.nan)
     inside = np.diff(np.clip(layout.bounds, begin, end)) / np.diff(layout.bounds)
-    found: Array = force @ inside
-    return found
+    return _summed(force, inside[None])[:, 0]
 
 
 def contact_length(layout: Layout, density: Array) -> Array:
