@@ -291,16 +291,6 @@ class Batch:
         self._orders.counts[list(chosen)] = 0
         self._carry_out()
 
-    @property
-    def crew(self) -> tuple[Array, Array, Array, Array]:
-        """What was seen of the wires and where their guides are, and units; not to be changed.
-
-        See ``kernels.crew.Orders``: scaled, shape (n, SEEN) and (n, 2), and units of length [m] and
-        force [N], shape (n,). ``observe`` is for others than kernels.
-        """
-        orders = self._orders
-        return orders.seen, orders.guide, self._length, self._force
-
     def observe(self) -> Sight:
         """What can be seen of all wires now; no compiled code is called for it."""
         orders, seen, length = self._orders, self._orders.seen, self._length
@@ -369,6 +359,16 @@ class Batch:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def raw_sight(batch: Batch) -> tuple[Array, Array, Array, Array]:
+    """What was seen of a batch's wires and where their guides are, and units, for kernels.
+
+    Not to be changed; see ``kernels.crew.Orders``: scaled, shape (n, SEEN) and (n, 2), and units of
+    length [m] and force [N], shape (n,).
+    """
+    orders = batch._orders
+    return orders.seen, orders.guide, batch._length, batch._force
 
 
 def start_of(simulation: Simulation, feed: float) -> Snapshot:

@@ -503,8 +503,8 @@ def test_keys_drive_the_wire_and_it_is_seen(chromium: Any, tmp_path: Path) -> No
     shown.until("magwire.picture.rate == 0 || magwire.picture.message == ''")
     # The gauge is the engine's force of the same step, and the picture its wire.
     same = shown.ask(
-        "({force: magwire.gauge.force, wall: magwire.picture.wallForce, points: magwire.points(),"
-        " forces: magwire.forces()})"
+        "(magwire.cockpit.show(), {force: magwire.gauge.force, wall: magwire.picture.wallForce,"
+        " points: magwire.points(), forces: magwire.forces()})"
     )
     assert same["force"] == same["wall"]
     forces = np.reshape(same["forces"], (-1, 3))

@@ -77,6 +77,18 @@ def test_the_integral_is_the_sum_up_to_both_ends() -> None:
     assert sums == pytest.approx(force.sum(axis=1), rel=1e-9)
 
 
+def test_records_have_the_same_bits_alone_and_together() -> None:
+    """How many are written together hangs on the clock."""
+    wire = layout(101)
+    chance = np.random.default_rng(0)
+    force = chance.random((97, 101)) * (chance.random((97, 101)) < 0.2)
+    for derived in (forces.per_length, forces.magnet):
+        together = derived(wire, force)
+        for size in (1, 7, 40):
+            parts = [derived(wire, force[k : k + size]) for k in range(0, 97, size)]
+            np.testing.assert_array_equal(np.concatenate(parts), together)
+
+
 def test_sides_do_not_cancel() -> None:
     vectors = np.zeros((1, 201, 3))
     vectors[0, 100, 1], vectors[0, 101, 1] = 1e-3, -1e-3

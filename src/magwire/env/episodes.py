@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from magwire.batch import Batch, start_of
+from magwire.batch import Batch, raw_sight, start_of
 from magwire.engine.plant import Plant
 from magwire.env import anatomy
 from magwire.env.anatomy import Anatomy
@@ -178,7 +178,7 @@ class Episodes:
         told = (force, largest, cost, progress, success, branch)
         way = (self._paths, self._spacing, self._goal, _AHEAD)
         mine = (self._seen, self._asked, self._last, self._limit)
-        course = (self.batch.crew, task.force_limit, self._off, self._arc)
+        course = (raw_sight(self.batch), task.force_limit, self._off, self._arc)
         room = (self._row, self._frame, self._numbered)
         report(*course, told, way, mine, *room, BOUND, vector)
         self._tell(dict(zip(_TOLD, told, strict=True)), fresh)

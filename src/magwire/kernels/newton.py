@@ -272,7 +272,7 @@ def newton(model, state, mouth, motion, work, limits):
         slope = splat(0.0)
         for i in range(held, a.q.shape[0]):
             slope = slope + load(work.gradient, i, 0) * load(work.step, 4 * (i - held + 1), 0)
-        # The Hessian comes almost for free with the gradient; a step this short may be the last.
+        # The Hessian costs little next to the gradient; after a step this short none is needed.
         long = longest(work.step, held, a.q.shape[0])
         ahead = not long < min(limits.step, LAST * nearest)
         aim = energy, total(slope), ROUND_OFF * (1.0 + abs(energy)), ahead
