@@ -19,7 +19,7 @@ from importlib.metadata import version
 import elastica as ea
 import numpy as np
 
-LENGTH, RADIUS, YOUNG, DENSITY = 1.0, 0.02, 1e6, 1000.0
+LENGTH, RADIUS, YOUNG, DENSITY = 1.0, 0.04, 1e6, 1000.0
 EI = YOUNG * np.pi * RADIUS**4 / 4.0
 FORCE = 1e-2 * EI / LENGTH**2
 
