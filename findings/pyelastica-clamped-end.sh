@@ -19,7 +19,7 @@ from importlib.metadata import version
 import elastica as ea
 import numpy as np
 
-LENGTH, RADIUS, YOUNG, DENSITY = 1.0, 0.02, 1e6, 1000.0
+LENGTH, RADIUS, YOUNG, DENSITY = 1.0, 0.04, 1e6, 1000.0
 EI = YOUNG * np.pi * RADIUS**4 / 4.0
 FORCE = 1e-2 * EI / LENGTH**2
 
@@ -59,7 +59,7 @@ def tip(elements, in_front=0.0):
 
 print("PyElastica", version("pyelastica"))
 exact = FORCE * LENGTH**3 / (3.0 * EI)
-for n in (4, 8, 12):
+for n in (4, 8):
     usual, moved = tip(n) / exact - 1.0, tip(n, in_front=0.5) / exact - 1.0
     expected = (n - 1) * (2 * n - 1) / (2 * n**2) - 1.0
     print(f"{n:2} elements: tip off by {100 * usual:6.2f} percent (formula {100 * expected:6.2f});"

@@ -208,3 +208,14 @@ def test_a_navigator_knows_the_background() -> None:
     result = simulation.run(mw.Feed(4e-3, 0.04), mw.TipNavigator(update_every=1e-3), time_step=0.05)
     assert result.status == "complete"
     assert result.max_tip_force == 0.0
+
+
+def test_what_is_no_command_is_refused() -> None:
+    with half_circle().session() as robot:
+        with pytest.raises(mw.InputError, match="twist_rate of Command must be a number"):
+            robot.step(2e-3, [0.0, 0.0, 0.0], 0.1)  # type: ignore[arg-type]
+        with pytest.raises(mw.InputError, match="must be of Command; received tuple"):
+            robot.advance([(2e-3, 0.0)])  # type: ignore[list-item]
+        with pytest.raises(mw.InputError, match="must be a Snapshot; received NoneType"):
+            robot.restore(None)  # type: ignore[arg-type]
+        assert robot.observe().time == 0.0

@@ -127,14 +127,19 @@ class Session:
                 self.advance((self._assisted(each),))
             return
         plant, drive, dt = self.plant, self._one, self.time_step
-        feed = min(max(plant.feed + feed_speed * dt, 0.0), self._length)
+        try:
+            feed = min(max(plant.feed + feed_speed * dt, 0.0), self._length)
+            twist = plant.twist + twist_rate * dt
+        except TypeError:
+            Command(feed_speed, twist_rate, inputs)  # says which it is
+            raise
         if inputs is None and self.assist is not None:
             inputs = self.assist.inputs(feed, feed_speed)
         drive.inputs[0] = plant.state.inputs if inputs is None else inputs
         if not math.isfinite(feed_speed + twist_rate + float(drive.inputs.sum())):
             Command(feed_speed, twist_rate, drive.inputs[0])  # says which it is
         drive.feed[0] = feed
-        drive.twist[0] = plant.twist + twist_rate * dt
+        drive.twist[0] = twist
         self._do(drive)
 
     def advance(self, commands: Sequence[Command]) -> None:
@@ -151,6 +156,11 @@ class Session:
         rows: list[tuple[float, float, Array]] = []
         step = 0.0
         for command in commands:
+            if not isinstance(command, Command):
+                raise InputError(
+                    "Input commands of Session.advance must be of Command; "
+                    f"received {type(command).__name__}."
+                )
             count = self._steps(command)
             each = command.duration / count
             if rows and each != step:
@@ -273,6 +283,11 @@ class Session:
         The recording goes back, too: what was recorded at later times is dropped, so that a result
         is one way of one wire, with times that rise.
         """
+        if not isinstance(snapshot, Snapshot):
+            raise InputError(
+                "Input snapshot of Session.restore must be a Snapshot; "
+                f"received {type(snapshot).__name__}."
+            )
         self.plant.restore(snapshot)
         if self._recording is None:
             return

@@ -292,6 +292,11 @@ def test_each_column_has_its_unit(tmp_path: Path) -> None:
     tube = Vessel.read(path).tubes["end-2"]
     assert tube.length == pytest.approx(80e-3)
     assert tube.radius == pytest.approx(2e-3)
+    head = "x [mm],y [mm],z [mm],radius [mm]\n"
+    path.write_text(head + "".join(f"{x},0,0,2\n" for x in range(9)))
+    overruled = Vessel.read(path, "cm").tubes["end-2"]
+    assert overruled.length == pytest.approx(80e-3)
+    assert overruled.radius == pytest.approx(20e-3)
     path.write_text("x [cm],y [mm],z [cm],radius\n0,0,0,1\n9,0,0,1\n")
     with pytest.raises(InputError, match="has points in cm and mm; expected one unit"):
         Vessel.read(path)

@@ -97,6 +97,8 @@ def found(source: Source, units: str | None, options: Options) -> Found:
     factor = scale * unit_factor(called(source), units, drawing)
     placement = Placement(factor, options.rotation, options.translation)
     stated = DIMENSIONS["length"].units.get(drawing.radius_unit or "")
+    if units is not None and drawing.radius_unit == drawing.unit:
+        stated = None  # what overrules the unit of the places overrules the same one of the radii
     wide = factor if stated is None else scale * stated
     try:
         with np.errstate(all="ignore"):  # numbers of a broken file end in a refusal
