@@ -20,8 +20,12 @@ Array = NDArray[np.float64]
 RADIUS, PITCH, TUBE, THICK = 10e-3, 8e-3, 2e-3, 0.3e-3
 TURNS = 2.5
 FED = TURNS * float(np.hypot(2.0 * np.pi * RADIUS, PITCH))
-COEFFICIENTS = (0.0, 0.1, 0.3)
-GUIDES = ((0.0, 0.0), (4e-3, 20.0), (4e-3, 60.0), (4e-3, 90.0), (8e-3, 60.0))
+COEFFICIENTS = (0.3, 0.2, 0.1)
+WINDOW = 1.5
+"""Of the angle, over which a slope is taken [rad]."""
+SIZES = (100.0, 400.0, 1600.0)
+"""Of the push, over EI tau^2, at which it is given."""
+GUIDES = ((0.0, 0.0), (4e-3, 20.0), (4e-3, 60.0), (8e-3, 40.0))
 """Flux densities that guide [T], and by how much they turn ahead of the way at the tip [deg]."""
 
 
@@ -44,22 +48,30 @@ def gone_round(run: mw.Result) -> Array:
 
 
 def row(friction: float, run: mw.Result, strength: float, ahead: float) -> str:
-    """A line of the table: slopes over the last turn, and forces in EI/L^2.
+    """A line of the table: slopes of ln(push) over the angle, and forces in EI/L^2.
 
-    Slopes of ln(push), and of ln(push over the force on the tip): steering changes the latter as
-    the wire goes in. Then the slope that is expected, and the push over EI tau^2.
+    Over the last turn, as expected, and where the push has certain sizes; ``--`` where it has not.
     """
     angle, force, tip = gone_round(run), run.push_force, run.tip_force
-    late = angle > angle[-1] - 2.0 * np.pi
     torsion = (PITCH / (2.0 * np.pi)) / (RADIUS**2 + (PITCH / (2.0 * np.pi)) ** 2)
     small = 3e6 * 0.25 * np.pi * THICK**4 * torsion**2  # EI tau^2
     expected = arc_growth(friction, -THICK / (RADIUS + TUBE - THICK)) if friction > 0.0 else 0.0
     unit = run.force_scale
-    steep, net = slope(angle[late], force[late]), slope(angle[late], force[late] / tip[late])
+    sizes, slopes = [], []
+    for first in np.arange(3.0, angle[-1] - WINDOW, 0.5 * WINDOW):
+        here = (angle > first) & (angle < first + WINDOW)
+        if force[here].min() > 0.0:
+            sizes.append(float(np.exp(np.log(force[here]).mean())) / small)
+            slopes.append(slope(angle[here], force[here]))
+    at = [
+        f"{np.interp(size, sizes, slopes):.3f}" if min(sizes) < size < max(sizes) else "--"
+        for size in SIZES
+    ]
+    late = angle > angle[-1] - 2.0 * np.pi
     return (
-        f"| {friction:g} | {1e3 * strength:g} | {ahead:g} | {steep:.3f} | {net:.3f} | "
-        f"{expected:.3f} | {force[late].min() / small:.3g} | {run.max_push_force / unit:.0f} | "
-        f"{run.max_insertion_force / unit:.0f} | {run.max_tip_force / unit:.0f} | "
+        f"| {friction:g} | {1e3 * strength:g} | {ahead:g} | "
+        f"{slope(angle[late], force[late]):.3f} | {expected:.3f} | {' | '.join(at)} | "
+        f"{run.max_push_force / unit:.0f} | {run.max_insertion_force / unit:.0f} | {run.max_tip_force / unit:.0f} | "
         f"{run.tip_force.mean() / unit:.0f} | {force[-1] / tip[-1]:.3g} |"
     )
 
