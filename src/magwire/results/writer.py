@@ -46,7 +46,7 @@ FLUSH_SECONDS = 2.0
 FLUSH_SHARE = 0.03
 """Share of the wall time that flushing may take: flushes of a very large file come less often."""
 CHUNK_BYTES = 2**16
-MOST_WAITING = 2**23
+MOST_WAITING = 2**22
 """Memory of the records that wait for a flush, and of the first ones without a file [bytes]."""
 SAME = 1e-9
 """Times that differ by less are the same [s]."""
