@@ -15,6 +15,7 @@ from magwire.actuate.mpem import MPEM
 from magwire.actuate.omnimagnet import Omnimagnet
 from magwire.actuate.pose import Pose
 from magwire.actuate.retime import retime
+from magwire.actuate.sampled import sampled, write_grid
 from magwire.actuate.tables import Saturation
 from magwire.actuate.timetable import Timetable
 from magwire.actuate.together import Held, Together
@@ -50,4 +51,6 @@ __all__ = [
     "dry_run",
     "extremes",
     "retime",
+    "sampled",
+    "write_grid",
 ]
