@@ -71,7 +71,8 @@ def row(friction: float, run: mw.Result, strength: float, ahead: float) -> str:
     return (
         f"| {friction:g} | {1e3 * strength:g} | {ahead:g} | "
         f"{slope(angle[late], force[late]):.3f} | {expected:.3f} | {' | '.join(at)} | "
-        f"{run.max_push_force / unit:.0f} | {run.max_insertion_force / unit:.0f} | {run.max_tip_force / unit:.0f} | "
+        f"{run.max_push_force / unit:.0f} | {run.max_insertion_force / unit:.0f} | "
+        f"{run.max_tip_force / unit:.0f} | "
         f"{run.tip_force.mean() / unit:.0f} | {force[-1] / tip[-1]:.3g} |"
     )
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.interpolate import BSpline
 
 import magwire as mw
 import surfaces
 from magwire.errors import InputError
 from magwire.kernels.wall.gap import jets_many
+from magwire.kernels.wall.sheet import BRICK, WIDE, splines
 from magwire.lumen.sheet import Sheet, nearest, search_tree
 
 Array = NDArray[np.float64]
@@ -72,6 +74,37 @@ def test_gradient_and_hessian() -> None:
         turn = (above[near] - below[near]) / (2.0 * step)
         assert turn == pytest.approx(h[near][:, places[axis]], abs=1e-2)
     assert near.sum() > 200
+
+
+def test_splines_are_those_of_their_basis_functions() -> None:
+    """Against SciPy's B-splines, in single precision as walls hold their coefficients."""
+    values = RNG.normal(size=(1, WIDE**3)).astype(np.float32)
+    places = BRICK * RNG.random((50, 3))
+    found = np.empty(50)
+    splines(values, np.zeros(50, dtype=np.int64), places, found)
+    knots = np.arange(-3.0, WIDE + 1.0)
+    basis = [BSpline.basis_element(knots[k : k + 5], extrapolate=False) for k in range(WIDE)]
+    x, y, z = (np.nan_to_num([b(column) for b in basis]) for column in places.T)
+    cube = values.reshape(WIDE, WIDE, WIDE).astype(float)
+    assert found == pytest.approx(np.einsum("ijk,in,jn,kn->n", cube, x, y, z), abs=1e-12)
+
+
+def test_bulges_are_known_by_place() -> None:
+    """On the inside of a bend by one over its radius there; at ends nobody knows."""
+    _, lumen = bent(0.2)
+    grid = lumen.bulge_grid(0.5e-3, 1e-3)
+
+    def at(place: Array) -> float:
+        cube = np.floor((place - [grid.x0, grid.y0, grid.z0]) * grid.per_cube).astype(int)
+        return float(grid.value[tuple(cube)])
+
+    assert 1e-3 * grid.per_cube == pytest.approx(1.0)
+    assert grid.value.max() <= lumen.bulge(0.5e-3)
+    middle = 0.5 * TURN
+    centre = np.array([0.0, BEND, 0.0])
+    inner = centre + (BEND - RADIUS + 0.5e-3) * np.array([np.sin(middle), -np.cos(middle), 0.0])
+    assert 1.0 / (BEND - RADIUS + 0.5e-3) < at(inner) < 0.5 / RADIUS
+    assert at(np.zeros(3)) == -1.0
 
 
 def test_no_triangle_is_inside_of_the_wall() -> None:

@@ -73,3 +73,19 @@ def test_a_surface_is_asked_for_where_there_is_none(tmp_path: Path) -> None:
     )
     with pytest.raises(ScenarioError, match=r"Input lumen.wall must be 'balls' for a file without"):
         mw.load_scenario(tmp_path / "a.toml")
+
+
+def test_a_run_stays_inside_of_the_triangles(tmp_path: Path) -> None:
+    """By the distance from all triangles, which the wall's spline has no part in."""
+    pytest.importorskip("trimesh")
+    points, triangles = bend(tmp_path)
+    (tmp_path / "a.toml").write_text(SCENARIO + 'wall = "surface"\n')
+    result = mw.load_scenario(tmp_path / "a.toml").run()
+    assert result.status == "complete"
+    wire = result.dataset.position.values
+    fed = wire[-1][wire[-1][:, 0] > 0.5e-3]  # past the plane of the entrance
+    assert len(fed) > 15
+    starts, ends = fed[:-1], fed[1:]
+    assert not surfaces.crossings(starts, ends, points, triangles).any()
+    assert surfaces.apart(starts, ends, points, triangles) > 0.6e-3
+    assert float(np.nanmin(result.dataset.clearance_along)) > 0.0

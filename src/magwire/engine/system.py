@@ -14,10 +14,19 @@ from magwire.actuate import Actuator
 from magwire.contact import Barrier, Friction, WallMotion
 from magwire.contact.motion import STRAIN
 from magwire.engine.record import UNIFORM_INPUTS, Scales, patch_length
-from magwire.engine.wall import DEEPEST, Firmness, by_place, divide, divide_bed, fit
+from magwire.engine.wall import (
+    DEEPEST,
+    NOWHERE,
+    Firmness,
+    by_place,
+    divide,
+    divide_bed,
+    fit,
+    in_units,
+)
 from magwire.errors import InputError, array, instance, nonnegative, one_of
 from magwire.field import FieldSource, UniformField, as_field
-from magwire.kernels.arrays import JET, Bed, Bulges, Guide, Rod, State, Tube, Wall, Work
+from magwire.kernels.arrays import JET, Bed, BulgeGrid, Bulges, Guide, Rod, State, Tube, Wall, Work
 from magwire.kernels.arrays import Friction as FrictionArrays
 from magwire.kernels.band import WIDTH
 from magwire.kernels.centreline import LumenArrays, Moving
@@ -334,9 +343,12 @@ class System:
         return self.lumen.bulges(self.keep_off)
 
     @cached_property
-    def _bulges_by_place(self) -> Bulges:
+    def _bulges_by_place(self) -> Bulges | BulgeGrid:
         """The same by place, for the kernels."""
-        return by_place(self._bulges, float(self.mesh.edge_length.max()), self.wire.length)
+        edge = float(self.mesh.edge_length.max())
+        if self.walls.sheet:
+            return in_units(self.lumen.bulge_grid(self.keep_off, edge), self.wire.length)
+        return by_place(self._bulges, edge, self.wire.length)
 
     def new_wall(self, tube: Tube | None = None) -> Wall:
         """The barrier, with nothing known yet of the gap near any point; with a virtual tube."""
@@ -346,8 +358,10 @@ class System:
         bed = self._new_bed()
         made = divide_bed if bed else divide
         between = made(self.firmness, edge, self.bulge, length, self.wire.nodes)
-        if between.parts > 1 and not self.walls.sheet:
+        if between.parts > 1:
             between = between._replace(bulges=self._bulges_by_place)
+        elif self.walls.sheet:
+            between = between._replace(bulges=NOWHERE)
         share = between.parts if bed else 1  # of its cell's wall that a node stands for
         balls = self.walls._replace(sheet=())
         none = Tube(0.0, 0.0, 0.0, balls, np.full((1, 4), -np.inf), np.zeros((1, JET)))

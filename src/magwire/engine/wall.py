@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from magwire.contact import Barrier
-from magwire.kernels.arrays import JET, Between, Bulges
+from magwire.kernels.arrays import JET, Between, BulgeGrid, Bulges
 from magwire.lumen import Lumen
 from magwire.lumen.bulge import Bulge, widened
 from magwire.wire import Wire
@@ -33,6 +33,8 @@ MARGIN = 4.0
 from a point to a node that touches the wall stays inside, too."""
 UNKNOWN = Bulges(np.zeros(0), np.zeros(1, dtype=np.int64), np.zeros(0))
 """No bulge is known by place."""
+NOWHERE = BulgeGrid(np.zeros((0, 0, 0)), 0.0, 0.0, 0.0, 0.0)
+"""The same at a wall of triangles."""
 FINEST = 64
 """Parts of an edge at most; the certificate of a record is what tells beyond that."""
 
@@ -129,3 +131,10 @@ def by_place(bulges: Sequence[Bulge], edge: float, scale: float) -> Bulges:
         first=np.cumsum([0, *map(len, values)]),
         per_arc=np.array([scale / (bulge.arc[1] - bulge.arc[0]) for bulge in bulges]),
     )
+
+
+def in_units(grid: BulgeGrid, scale: float) -> BulgeGrid:
+    """How a wall of triangles bulges, in units of ``scale`` [m]; -1 stays -1."""
+    value = np.where(grid.value < 0.0, -1.0, scale * grid.value)
+    x0, y0, z0 = grid.x0 / scale, grid.y0 / scale, grid.z0 / scale
+    return BulgeGrid(value, x0, y0, z0, scale * grid.per_cube)

@@ -100,6 +100,20 @@ class Bulges(NamedTuple):
     per_arc: Array
 
 
+class BulgeGrid(NamedTuple):
+    """How sharply a wall of triangles bulges inward, by cubes of a grid; see ``lumen.bulge``.
+
+    value [nx, ny, nz] curvature, -1 where that is not known; x0, y0, z0 lower corner; per_cube how
+    many cubes there are for each length.
+    """
+
+    value: Array
+    x0: float
+    y0: float
+    z0: float
+    per_cube: float
+
+
 class Between(NamedTuple):
     """Contact of the edges between their nodes; see ``wall.between``.
 
@@ -116,7 +130,7 @@ class Between(NamedTuple):
     known: Array
     jet: Array
     clear: Array
-    bulges: Bulges
+    bulges: Bulges | BulgeGrid
 
 
 class Friction(NamedTuple):

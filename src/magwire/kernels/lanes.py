@@ -162,17 +162,17 @@ def transposed(typing: Any, a: Any, b: Any, c: Any, d: Any) -> Any:
 
 
 def _address(context: Any, builder: Any, kind: Any, args: Any) -> Any:
-    """Pointer to four numbers of an array from an entry on: row i and column k, or i alone."""
+    """Pointer to numbers of an array from an entry on: row i and column k, or i alone."""
     array = context.make_array(kind)(context, builder, args[0])
     place = args[1]
     if kind.ndim == 2:
         columns = cgutils.unpack_tuple(builder, array.shape)[1]
         place = builder.add(builder.mul(args[1], columns), args[2])
-    return builder.bitcast(builder.gep(array.data, [place]), _VECTOR.as_pointer())
+    return builder.gep(array.data, [place])
 
 
-def _dense(array: Any) -> bool:
-    return isinstance(array, types.Array) and array.layout == "C" and array.dtype == types.float64
+def _dense(array: Any, kind: Any = types.float64) -> bool:
+    return isinstance(array, types.Array) and array.layout == "C" and array.dtype == kind
 
 
 @intrinsic  # type: ignore[untyped-decorator]
@@ -180,12 +180,18 @@ def load(typing: Any, array: Any, i: Any, k: Any) -> Any:
     """Four entries of row i of an array that follow each other in memory, from column k on.
 
     k may be negative: the entry is then one of the row before. Of a vector, k is not looked at.
+    The array may be of single precision.
     """
-    if not _dense(array):
+    if not (_dense(array) or _dense(array, types.float32)):
         return None
 
     def emit(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-        return builder.load(_address(context, builder, sig.args[0], args), align=8)
+        place = _address(context, builder, sig.args[0], args)
+        if sig.args[0].dtype == types.float64:
+            return builder.load(builder.bitcast(place, _VECTOR.as_pointer()), align=8)
+        single = ir.VectorType(ir.FloatType(), LANES)
+        found = builder.load(builder.bitcast(place, single.as_pointer()), align=4)
+        return builder.fpext(found, _VECTOR)
 
     return FOUR(array, types.intp, types.intp), emit
 
@@ -197,7 +203,8 @@ def store(typing: Any, array: Any, i: Any, k: Any, v: Any) -> Any:
         return None
 
     def emit(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-        builder.store(args[3], _address(context, builder, sig.args[0], args), align=8)
+        place = _address(context, builder, sig.args[0], args)
+        builder.store(args[3], builder.bitcast(place, _VECTOR.as_pointer()), align=8)
         return context.get_dummy_value()
 
     return types.none(array, types.intp, types.intp, FOUR), emit

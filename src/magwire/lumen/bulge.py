@@ -9,10 +9,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
+from scipy.ndimage import maximum_filter
 
+from magwire.kernels.arrays import BulgeGrid
 from magwire.kernels.centreline import LumenArrays
 from magwire.kernels.wall.gap import hessian_many, jets_many
-from magwire.kernels.wall.sheet import MOUTH_RADIUS
+from magwire.kernels.wall.sheet import MOUTH_POINT, MOUTH_RADIUS
 from magwire.lumen.branch import Branch
 from magwire.lumen.distance import Wall
 
@@ -22,6 +24,9 @@ SPACING = 0.25  # of the rings of points, over the radius
 AROUND = 12  # points on a ring
 SPOTS = 40_000  # of a wall of triangles that are looked at
 STEPS = 3  # towards the points that are some way off a wall
+CUBES = 1_000_000  # by which bulges of a wall of triangles are known, at most
+REACHED = 2  # cubes around one whose bulges count in it
+OPENING = 2.0  # how far around an open end the bulge is not known, over its radius
 RINGS = 20_000  # on a branch, at most
 NEAR = 0.3  # points this near to the wall count as points of it, over the radius
 FLARE = 0.3  # curvature of an outlet's flare, over its radius, as far out as wires lie on it
@@ -92,6 +97,37 @@ def widened(bulge: Bulge, reach: float) -> Array:
 
 def sheet_bulge(arrays: LumenArrays, wall: Wall, inset: float) -> float:
     """The same for a wall of triangles, looked for at points all over it, ``inset`` off it."""
+    sharpest = float(_sharpness(arrays, wall, inset)[1].max(initial=0.0))
+    radii = wall.arrays.ends[:, MOUTH_RADIUS]
+    flare = max((FLARE / float(radius) for radius in radii), default=0.0)
+    return max(sharpest, flare)
+
+
+def sheet_bulges(arrays: LumenArrays, wall: Wall, inset: float, edge: float) -> BulgeGrid:
+    """The same by place, [1/m] and [m]: the largest within an edge [m], and up to two of them away.
+
+    Where no wall is that near, the wall is as far away as an edge is long, and what is seen of a
+    bulge there bends by less than one over that. At open ends it is not known.
+    """
+    points, sharpest = _sharpness(arrays, wall, inset)
+    low, high = points.min(axis=0), points.max(axis=0)
+    cube = max(edge, float(np.prod(high - low + edge) / CUBES) ** (1.0 / 3.0))
+    low = low - (REACHED + 1) * cube
+    shape = np.ceil((high - low) / cube).astype(np.int64) + REACHED + 1
+    value = np.full(tuple(shape), -np.inf)
+    np.maximum.at(value, tuple(((points - low) / cube).astype(np.int64).T), sharpest)
+    value = maximum_filter(value, 2 * REACHED + 1, mode="nearest")
+    value[value == -np.inf] = min(1.0 / cube, float(sharpest.max(initial=0.0)))
+    middles = low + (np.moveaxis(np.indices(value.shape), 0, -1) + 0.5) * cube
+    for row in wall.arrays.ends:
+        off = np.linalg.norm(middles - row[MOUTH_POINT : MOUTH_POINT + 3], axis=-1)
+        value[off < OPENING * row[MOUTH_RADIUS] + 2.0 * cube] = -1.0
+    x0, y0, z0 = (float(corner) for corner in low)
+    return BulgeGrid(value, x0, y0, z0, 1.0 / cube)
+
+
+def _sharpness(arrays: LumenArrays, wall: Wall, inset: float) -> tuple[Array, Array]:
+    """Points all over a wall of triangles, ``inset`` off it, and how it bulges there [m, 1/m]."""
     every = max(1, len(wall.spots) // SPOTS)
     points = wall.spots[::every].copy()
     count = len(points)
@@ -102,10 +138,7 @@ def sheet_bulge(arrays: LumenArrays, wall: Wall, inset: float) -> float:
     jets_many(arrays, points, gap, normal, hessian)
     there = np.abs(gap - inset) < NEAR * wall.radius[::every]
     matrices = hessian[there][:, SYMMETRIC].reshape(-1, 3, 3)
-    sharpest = float(np.linalg.eigvalsh(matrices)[:, -1].max(initial=0.0))
-    radii = wall.arrays.ends[:, MOUTH_RADIUS]
-    flare = max((FLARE / float(radius) for radius in radii), default=0.0)
-    return max(sharpest, flare)
+    return points[there], np.maximum(np.linalg.eigvalsh(matrices)[:, -1], 0.0)
 
 
 def _rounding(branches: Sequence[Branch]) -> float:

@@ -83,6 +83,29 @@ def bulge_at(bulges, jet):
 
 
 @kernel
+def bulge_in(grid, x):
+    """How sharply a wall of triangles bulges around a point; -1 if not known."""
+    if grid.value.shape[0] == 0:
+        return -1.0
+    i = (x[0] - grid.x0) * grid.per_cube
+    j = (x[1] - grid.y0) * grid.per_cube
+    k = (x[2] - grid.z0) * grid.per_cube
+    nx, ny, nz = grid.value.shape
+    if not (0.0 <= i < nx and 0.0 <= j < ny and 0.0 <= k < nz):
+        return -1.0
+    return grid.value[int(i), int(j), int(k)]
+
+
+@kernel
+def bulge_near(sheets, bulges, jet, x):
+    """How sharply the wall bulges near a point whose gap is remembered; -1 if not known."""
+    if len(sheets) == 0:
+        return bulge_at(bulges, jet)
+    else:
+        return bulge_in(bulges, x)
+
+
+@kernel
 def dip(low, high, sagitta):
     """Least value between the ends of a chord of what falls below the straight line by a parabola.
 
@@ -109,7 +132,7 @@ def sag(lumen, wall, q, j):
         x, known = row(q, i), wall.known[i]
         if not asked_at(x, known):
             query(lumen, x, known, wall.jet[i])
-        here = bulge_at(wall.between.bulges, wall.jet[i])
+        here = bulge_near(lumen.sheet, wall.between.bulges, wall.jet[i], x)
         if here < 0.0:
             return -1.0
         bulge = max(bulge, here)

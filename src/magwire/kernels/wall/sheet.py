@@ -20,6 +20,7 @@ from typing import NamedTuple
 from numpy.typing import NDArray
 
 from magwire.kernels._jit import called, kernel
+from magwire.kernels.lanes import first, fourth, load, second, third
 from magwire.kernels.vectors import combine, dot
 
 BRICK = 4
@@ -136,8 +137,8 @@ def weights(t):
         r * r * (0.5 * r - 1.0) + 2.0 / 3.0,
         t * t * t / 6.0,
     )
-    first = (-0.5 * r * r, t * (1.5 * t - 2.0), r * (2.0 - 1.5 * r), 0.5 * t * t)
-    return value, first, (r, 3.0 * t - 2.0, 3.0 * r - 2.0, t)
+    rise = (-0.5 * r * r, t * (1.5 * t - 2.0), r * (2.0 - 1.5 * r), 0.5 * t * t)
+    return value, rise, (r, 3.0 * t - 2.0, 3.0 * r - 2.0, t)
 
 
 @kernel
@@ -147,21 +148,27 @@ def mix(w, a, b, c, d):
 
 
 @kernel
-def line(c, at, w):
-    """Sum of the four coefficients along z."""
-    return mix(w, c[at], c[at + 1], c[at + 2], c[at + 3])
+def along_z(w, v):
+    """Sum of the four numbers of a register by the weights along z."""
+    return (w[0] * first(v) + w[1] * second(v)) + (w[2] * third(v) + w[3] * fourth(v))
 
 
 @kernel
-def plane(c, at, v, w):
-    """Sum of the 16 coefficients in a plane of y and z."""
-    return mix(
-        v,
-        line(c, at, w),
-        line(c, at + WIDE, w),
-        line(c, at + 2 * WIDE, w),
-        line(c, at + 3 * WIDE, w),
+def lines(c, at):
+    """The four by four coefficients in a plane of y and z, those along z in a register."""
+    return (
+        load(c, at, 0),
+        load(c, at + WIDE, 0),
+        load(c, at + 2 * WIDE, 0),
+        load(c, at + 3 * WIDE, 0),
     )
+
+
+@kernel
+def plane(c, at, v):
+    """Sums along y in a plane."""
+    a, b, p, q = lines(c, at)
+    return mix(v, a, b, p, q)
 
 
 @kernel
@@ -169,35 +176,16 @@ def spline_value(c, at, t):
     """Value of the spline."""
     u, v, w = weights(t[0])[0], weights(t[1])[0], weights(t[2])[0]
     next_plane = WIDE * WIDE
-    return mix(
-        u,
-        plane(c, at, v, w),
-        plane(c, at + next_plane, v, w),
-        plane(c, at + 2 * next_plane, v, w),
-        plane(c, at + 3 * next_plane, v, w),
-    )
+    a, b = plane(c, at, v), plane(c, at + next_plane, v)
+    p, q = plane(c, at + 2 * next_plane, v), plane(c, at + 3 * next_plane, v)
+    return along_z(w, mix(u, a, b, p, q))
 
 
 @kernel
-def line_jet(c, at, z):
-    """Sum along z with two derivatives."""
-    a, b, p, q = c[at], c[at + 1], c[at + 2], c[at + 3]
-    return mix(z[0], a, b, p, q), mix(z[1], a, b, p, q), mix(z[2], a, b, p, q)
-
-
-@kernel
-def plane_jet(c, at, y, z):
-    """Sum in a plane, and its derivatives by y, z, yy, yz, zz."""
-    a, b = line_jet(c, at, z), line_jet(c, at + WIDE, z)
-    p, q = line_jet(c, at + 2 * WIDE, z), line_jet(c, at + 3 * WIDE, z)
-    return (
-        mix(y[0], a[0], b[0], p[0], q[0]),
-        mix(y[1], a[0], b[0], p[0], q[0]),
-        mix(y[0], a[1], b[1], p[1], q[1]),
-        mix(y[2], a[0], b[0], p[0], q[0]),
-        mix(y[1], a[1], b[1], p[1], q[1]),
-        mix(y[0], a[2], b[2], p[2], q[2]),
-    )
+def plane_jet(c, at, y):
+    """Sums along y in a plane, with two derivatives."""
+    a, b, p, q = lines(c, at)
+    return mix(y[0], a, b, p, q), mix(y[1], a, b, p, q), mix(y[2], a, b, p, q)
 
 
 @kernel
@@ -205,22 +193,21 @@ def spline_jet(c, at, t):
     """Value of the spline, its gradient and its Hessian xx xy xz yy yz zz, by the cell's edge."""
     x, y, z = weights(t[0]), weights(t[1]), weights(t[2])
     next_plane = WIDE * WIDE
-    a, b = plane_jet(c, at, y, z), plane_jet(c, at + next_plane, y, z)
-    p, q = plane_jet(c, at + 2 * next_plane, y, z), plane_jet(c, at + 3 * next_plane, y, z)
-    n = (
-        mix(x[1], a[0], b[0], p[0], q[0]),
-        mix(x[0], a[1], b[1], p[1], q[1]),
-        mix(x[0], a[2], b[2], p[2], q[2]),
-    )
+    a, b = plane_jet(c, at, y), plane_jet(c, at + next_plane, y)
+    p, q = plane_jet(c, at + 2 * next_plane, y), plane_jet(c, at + 3 * next_plane, y)
+    # Left to be summed along z: the value and its derivatives by x and y.
+    value, by_y = mix(x[0], a[0], b[0], p[0], q[0]), mix(x[0], a[1], b[1], p[1], q[1])
+    by_x = mix(x[1], a[0], b[0], p[0], q[0])
+    n = (along_z(z[0], by_x), along_z(z[0], by_y), along_z(z[1], value))
     h = (
-        mix(x[2], a[0], b[0], p[0], q[0]),
-        mix(x[1], a[1], b[1], p[1], q[1]),
-        mix(x[1], a[2], b[2], p[2], q[2]),
-        mix(x[0], a[3], b[3], p[3], q[3]),
-        mix(x[0], a[4], b[4], p[4], q[4]),
-        mix(x[0], a[5], b[5], p[5], q[5]),
+        along_z(z[0], mix(x[2], a[0], b[0], p[0], q[0])),
+        along_z(z[0], mix(x[1], a[1], b[1], p[1], q[1])),
+        along_z(z[1], by_x),
+        along_z(z[0], mix(x[0], a[2], b[2], p[2], q[2])),
+        along_z(z[1], by_y),
+        along_z(z[2], value),
     )
-    return mix(x[0], a[0], b[0], p[0], q[0]), n, h
+    return along_z(z[0], value), n, h
 
 
 @kernel
