@@ -280,3 +280,24 @@ def test_as_many_limits_as_coils(tmp_path: Path) -> None:
     calibration = MPEM.read(write(tmp_path, "c.yaml", CALIBRATION)).calibration
     with pytest.raises(InputError, match="one entry for each of 1 coils; received 2"):
         MPEM(calibration=calibration, max_currents=(1.0, 2.0))
+
+
+@needs_files
+def test_octomag_is_too_even_for_the_choice_of_a_field_to_save_a_fifth() -> None:
+    """Along the tip it is free to choose: at most ((q - 1)/(q + 1))^2 of the power is saved.
+
+    Where the small sinusoid of the campaign is; in the corners of the box it is a little more.
+    """
+    octomag = MPEM.read(FOLDER / "octomag_calibration.yaml")
+    rng = np.random.default_rng(5)
+    for point in rng.uniform((-8e-3, -3e-3, 0.0), (8e-3, 3e-3, 0.0), (20, 3)):
+        by_current = octomag.response(point[None], np.zeros(8))[0][0].T
+        costs = np.linalg.inv(by_current @ by_current.T)
+        values = np.linalg.eigvalsh(costs)
+        bound = ((values[-1] - values[0]) / (values[-1] + values[0])) ** 2
+        for _ in range(50):
+            along, across = np.linalg.qr(rng.normal(size=(3, 2)))[0].T
+            best = across - along * (along @ costs @ across) / (along @ costs @ along)
+            saved = 1.0 - (best @ costs @ best) / (across @ costs @ across)
+            assert saved <= bound + 1e-12
+        assert bound < 0.17
