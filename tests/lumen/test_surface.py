@@ -12,6 +12,7 @@ import surfaces
 from magwire.errors import InputError
 from magwire.kernels.wall.gap import jets_many
 from magwire.kernels.wall.sheet import BRICK, WIDE, splines
+from magwire.lumen.bulge import sheet_bulges
 from magwire.lumen.sheet import Sheet, nearest, search_tree
 
 Array = NDArray[np.float64]
@@ -92,7 +93,8 @@ def test_splines_are_those_of_their_basis_functions() -> None:
 def test_bulges_are_known_by_place() -> None:
     """On the inside of a bend by one over its radius there; at ends nobody knows."""
     _, lumen = bent(0.2)
-    grid = lumen.bulge_grid(0.5e-3, 1e-3)
+    assert lumen.sheet is not None
+    grid = sheet_bulges(lumen.arrays(), lumen.sheet, lumen.branches, 0.5e-3, 1e-3)
 
     def at(place: Array) -> float:
         cube = np.floor((place - [grid.x0, grid.y0, grid.z0]) * grid.per_cube).astype(int)

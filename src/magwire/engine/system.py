@@ -36,7 +36,7 @@ from magwire.kernels.sources.table import Sources, new_strength
 from magwire.kernels.wall.onward import FULL
 from magwire.kernels.wall.traction import CONTACT
 from magwire.lumen import Lumen
-from magwire.lumen.bulge import Bulge, largest
+from magwire.lumen.bulge import Bulge, largest, sheet_bulges
 from magwire.units import show
 from magwire.wire import Mesh, Wire, lay_out
 
@@ -346,8 +346,10 @@ class System:
     def _bulges_by_place(self) -> Bulges | BulgeGrid:
         """The same by place, for the kernels."""
         edge = float(self.mesh.edge_length.max())
-        if self.walls.sheet:
-            return in_units(self.lumen.bulge_grid(self.keep_off, edge), self.wire.length)
+        lumen = self.lumen
+        if lumen.sheet is not None:
+            grid = sheet_bulges(lumen.arrays(), lumen.sheet, lumen.branches, self.keep_off, edge)
+            return in_units(grid, self.wire.length)
         return by_place(self._bulges, edge, self.wire.length)
 
     def new_wall(self, tube: Tube | None = None) -> Wall:

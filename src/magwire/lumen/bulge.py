@@ -16,7 +16,8 @@ from magwire.kernels.centreline import LumenArrays
 from magwire.kernels.wall.gap import hessian_many, jets_many
 from magwire.kernels.wall.sheet import MOUTH_POINT, MOUTH_RADIUS
 from magwire.lumen.branch import Branch
-from magwire.lumen.distance import Wall
+from magwire.lumen.distance import Wall, build
+from magwire.lumen.sheet import Sheet
 
 Array = NDArray[np.float64]
 
@@ -103,12 +104,15 @@ def sheet_bulge(arrays: LumenArrays, wall: Wall, inset: float) -> float:
     return max(sharpest, flare)
 
 
-def sheet_bulges(arrays: LumenArrays, wall: Wall, inset: float, edge: float) -> BulgeGrid:
+def sheet_bulges(
+    arrays: LumenArrays, sheet: Sheet, branches: Sequence[Branch], inset: float, edge: float
+) -> BulgeGrid:
     """The same by place, [1/m] and [m]: the largest within an edge [m], and up to two of them away.
 
     Where no wall is that near, the wall is as far away as an edge is long, and what is seen of a
     bulge there bends by less than one over that. At open ends it is not known.
     """
+    wall = build(sheet, branches)
     points, sharpest = _sharpness(arrays, wall, inset)
     low, high = points.min(axis=0), points.max(axis=0)
     cube = max(edge, float(np.prod(high - low + edge) / CUBES) ** (1.0 / 3.0))

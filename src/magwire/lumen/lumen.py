@@ -13,12 +13,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from magwire.errors import InputError, array, instance, nonnegative, numbers, positive, whole
-from magwire.kernels.arrays import BulgeGrid
 from magwire.kernels.centreline import LumenArrays
 from magwire.kernels.wall.gap import gap_many
 from magwire.lumen import shapes
 from magwire.lumen.branch import Bend, Branch
-from magwire.lumen.bulge import Bulge, bulges, largest, sheet_bulge, sheet_bulges
+from magwire.lumen.bulge import Bulge, bulges, largest, sheet_bulge
 from magwire.lumen.distance import Wall as SheetWall
 from magwire.lumen.distance import build, scaled_sheet
 from magwire.lumen.forks import join_ways
@@ -551,11 +550,6 @@ class Lumen:
     def bulges(self, inset: float) -> list[Bulge]:
         """The same along each branch: the largest where the ball is that a point is deepest in."""
         return bulges(self._search.arrays, self.branches, inset)
-
-    def bulge_grid(self, inset: float, edge: float) -> BulgeGrid:
-        """The same of a wall of triangles by place, for edges of a length [m]."""
-        assert self._wall is not None
-        return sheet_bulges(self.arrays(), self._wall, inset, edge)
 
     def arrays(self, length_scale: float = 1.0) -> LumenArrays:
         """The lumen as the kernels take it, in units of ``length_scale`` [m]."""
