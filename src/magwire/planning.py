@@ -16,6 +16,7 @@ from magwire.errors import InputError, instance
 from magwire.kernels.wall.barrier import barrier
 from magwire.lumen import Lumen
 from magwire.lumen.branch import Bend
+from magwire.navigate import tuned
 from magwire.navigate.demands import Demands
 from magwire.navigate.navigator import Navigator, Prescribed
 from magwire.navigate.schedule import Schedule, last_tries
@@ -29,15 +30,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-PACE = 0.2  # feed between two planned fields, over the lower quartile of the radii of the path
-FINEST = 5e-3  # that feed at most, over the wire's length
 SPEED = 0.01  # wire lengths in a second; there is no inertia
-PART = 0.2  # activation gap of the planning wall at most, over the clearance at the narrowest place
-GAP = 8e-5  # activation gap of the planning wall at most [m]
-LEFT = 0.25  # of the gap, where the wire is bent around the sharpest bend
-HARD = 1e-3  # stiffness of the wall's barrier, over Young's modulus of the wire, at least
-ATTEMPTS = 3  # in one place
-SLACK = 1.1  # feed at most, over the length of the path: a wire may lie on the outside of bends
 WIDE = 10.0  # lumen's radius over the wire's, in which a wire has nothing to lean on
 MOUTH = 0.5  # of that lumen's radius: from there down it counts as narrow
 AT_LIMIT = 0.98  # of the largest field, from which on it is what keeps a wire back
@@ -195,8 +188,8 @@ def firm_wall(wire: Wire, bend: float, gap: float) -> Barrier:
         Activation gap of the barrier [m].
     """
     line_force = wire.bending_stiffness / bend**3
-    slope = -barrier(LEFT * gap, gap)[1]  # of its energy, over K
-    return Barrier(max(HARD * wire.body.bending_modulus, line_force / slope), gap)
+    slope = -barrier(tuned.OUTLET.left * gap, gap)[1]  # of its energy, over K
+    return Barrier(max(tuned.OUTLET.hard * wire.body.bending_modulus, line_force / slope), gap)
 
 
 def _prospect(
@@ -239,13 +232,15 @@ def _prospect(
             f"{2e3 * nothing.narrowest:.4g} mm at {1e3 * nothing.narrowest_at:.4g} mm.",
         )
     goal = way.length - float(radii[-1])
-    long = fitted(wire, SLACK * way.length)
-    every = min(FINEST * long.length, PACE * float(np.quantile(radii, 0.25)))
-    yielding = firm_wall(wire, nothing.bend.radius, min(GAP, PART * room))
+    long = fitted(wire, tuned.OUTLET.slack * way.length)
+    every = min(
+        tuned.OUTLET.finest * long.length, tuned.OUTLET.pace * float(np.quantile(radii, 0.25))
+    )
+    yielding = firm_wall(wire, nothing.bend.radius, min(tuned.OUTLET.gap, tuned.OUTLET.part * room))
     course = _Course(
         planned=Simulation(long, lumen, contact=contact or yielding),
         replayed=_briskly(Simulation(long, lumen, contact=contact or Barrier())),
-        feed=Feed(SPEED * long.length, SLACK * way.length),
+        feed=Feed(SPEED * long.length, tuned.OUTLET.slack * way.length),
         every=every,
         goal=goal,
     )
@@ -288,7 +283,9 @@ def _travel(nothing: Prospect, course: _Course, demands: Demands) -> Prospect:
     replayed from the entrance.
     """
     every, goal = course.every, course.goal
-    steering = TipNavigator(demands, update_every=every, plan_every=every, attempts=ATTEMPTS)
+    steering = TipNavigator(
+        demands, update_every=every, plan_every=every, attempts=tuned.OUTLET.attempts
+    )
     planned = course.run(course.feed.largest, steering.start(course.planned.system))
     if len(planned.feed) == 0 or not planned.feed.max() > 0.0:
         return replace(nothing, reason=planned.message)

@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from magwire.navigate import NavigationError, Observation
-from magwire.navigate.pilot import HALVES, Knot, Pilot
+from magwire.navigate import NavigationError, Observation, tuned
+from magwire.navigate.pilot import Knot, Pilot
 from magwire.navigate.stable import StableNavigator
 from wires import paper_wire, simulation
 
@@ -43,7 +43,7 @@ def test_where_the_wall_holds_the_wire_the_way_is_halved(monkeypatch: pytest.Mon
         [knot.feed - last.feed for knot in found], np.arange(5) * 0.25e-3, atol=1e-12
     )
     assert all(knot.view is not None for knot in found)
-    assert HALVES == 2
+    assert tuned.PILOT.halves == 2
     with pytest.raises(NavigationError, match="too far"):
         pilot.advance(last, last.feed + 1.1e-3)
 

@@ -23,9 +23,10 @@ from magwire.engine.plant import Plant
 from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.kernels.linearise import steadiness
+from magwire.navigate import tuned
 from magwire.navigate.demands import Demands
 from magwire.navigate.model import across
-from magwire.navigate.programme import MOST_ROOM, NORMALS, OFF_ROOM, SIDES
+from magwire.navigate.programme import NORMALS, SIDES
 
 Array = NDArray[np.float64]
 
@@ -234,8 +235,8 @@ class Direct:
     def _wider(self, radius: float) -> float:
         """Room for a tip in a field that is off [m]."""
         room, free = self._room(radius), radius - self._system.keep_off
-        most = min(MOST_ROOM * free, free - self._system.firmness.activation_gap)
-        return max(room, min(OFF_ROOM * room, most))
+        most = min(tuned.PROGRAMME.most_room * free, free - self._system.firmness.activation_gap)
+        return max(room, min(tuned.PROGRAMME.off_room * room, most))
 
     def _misses(self, sight: Sight) -> tuple[float, float]:
         """By how much offset and eigenvalue miss what is asked for, over radius and margin."""

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from magwire.errors import whole
 from magwire.lumen import Lumen
+from magwire.navigate import tuned
 from magwire.navigate.demands import Demands
 from magwire.navigate.navigator import NavigationError, Navigator, Observation
 from magwire.navigate.pilot import Knot
@@ -19,10 +20,6 @@ from magwire.navigate.stable import StableNavigator
 Array = NDArray[np.float64]
 
 ATTEMPTS = 4  # in one place
-STEP = 4.0  # how much farther back each attempt starts, in the lumen's radius
-AHEAD = 1.0  # how far before a junction, in that radius
-PAST = 2.0  # how far past a place it counts as passed, in that radius
-STRAYED = 0.2  # how far outside the path to the target a tip is in another branch, in that radius
 DENSITY = 4.0  # balls per smallest radius by which a path is known
 CLOSE = 1e-9  # two feeds are the same [m]
 
@@ -66,7 +63,7 @@ class Ways:
     def strayed(self, point: Array) -> str | None:
         """The other outlet on whose path a point is, if it is not on the path to the target."""
         gap, arc, radius = self.deepest(self.target, point)
-        if gap > -STRAYED * radius or arc == self._arcs[self.target][-1]:
+        if gap > -tuned.RETRY.strayed * radius or arc == self._arcs[self.target][-1]:
             return None
         others = {name: self.deepest(name, point)[0] for name in self._balls if name != self.target}
         best = max(others, key=lambda name: others[name], default=None)
@@ -155,14 +152,14 @@ class PersistentNavigator:
         if seen.feed > self._trouble:
             self._tried = 0
         self._tried += 1
-        back = seen.feed - STEP * radius * self._tried
+        back = seen.feed - tuned.RETRY.step * radius * self._tried
         junction = self._ways.junction(arc - (seen.feed - back), arc)
         if junction is not None:
-            back = min(back, seen.feed - (arc - junction) - AHEAD * radius)
+            back = min(back, seen.feed - (arc - junction) - tuned.RETRY.ahead * radius)
         knots = [knot for knot, _ in self._trail if knot.feed <= back]
         if self._tried == len(self._approaches) or not knots:
             raise NavigationError(" ".join([str(failure), *self._in_short()]))
-        self._trouble = max(self._trouble, seen.feed + PAST * radius)
+        self._trouble = max(self._trouble, seen.feed + tuned.RETRY.past * radius)
         self._back = knots[-1]
         course = [(knot.feed, flux) for knot, flux in self._trail]
         course.append((seen.feed, self._last.at(seen.feed)[0]))

@@ -16,30 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.engine.plant import Snapshot
+from magwire.navigate import tuned
 from magwire.navigate.model import Model, View
 from magwire.navigate.navigator import NavigationError
 from magwire.navigate.programme import Programme
 
 Array = NDArray[np.float64]
 
-PROGRAMMES = 8  # per planned feed, at most
-SETTLED = 5e-3  # they end when the field changes by less than this, in the unit of fields
-TRUST = 0.3  # largest change of a component of the field in one programme, in that unit
-LEAST_TRUST = 2e-3
-FRESH = 0.03  # trust at a new feed, at least, of a wire on the wall: its nodes have moved on
-HALVINGS = 6
-LEAST_PART = 0.5**HALVINGS
-BEYOND = 3  # programmes from beyond where nothing on the way was better, at most
 ROUND_OFF = 1e-4  # a rise of the merit by less does not matter
-MISSED = 0.1  # part of the lumen's radius, or of the margin, by which a constraint may be missed
-SLIP = 0.2  # change of the tip's offset from one feed to the next that is a slip, in that radius
-INERTIA = 0.015  # feed over which the field may follow what is asked for, in the model's reach
-TRIES = 12  # of a feed at which the wire is lost, each with a larger margin before it
-STIFFER = 1.15  # eigenvalue for a retry, over the one with which the wire was lost
-FIRM = 500.0  # see Pilot.firm
-HALVES = 2  # how often the way to a feed is halved, where the wall holds a wire that is lost
-WEDGED = 250.0  # eigenvalue, in stability margins, of a wire that the wall holds fast
-RELAXING = 0.95  # of that larger margin from one planned feed to the next
 
 
 @dataclass(frozen=True)
@@ -77,11 +61,11 @@ class Pilot:
         What the fields must keep to.
     firm
         Eigenvalue, in stability margins, from which on a wire that was lost is made only a little
-        stiffer.
+        stiffer; that of ``tuned.PILOT`` if left out.
     """
 
-    def __init__(self, model: Model, programme: Programme, firm: float = FIRM) -> None:
-        self.firm = firm
+    def __init__(self, model: Model, programme: Programme, firm: float | None = None) -> None:
+        self.firm = tuned.PILOT.firm if firm is None else firm
         self.model = model
         self.programme = programme
         self._length = model.reach
@@ -89,9 +73,9 @@ class Pilot:
 
     def forget(self) -> None:
         """Start afresh: what was learned of the wire before is of no use elsewhere."""
-        self._margin, self._trust = self.programme.demands.stability_margin, TRUST
+        self._margin, self._trust = self.programme.demands.stability_margin, tuned.PILOT.trust
 
-    def advance(self, last: Knot, feed: float, halves: int = HALVES) -> list[Knot]:
+    def advance(self, last: Knot, feed: float, halves: int | None = None) -> list[Knot]:
         """Feed the model on from a knot, and find the field there.
 
         A wire that is lost on the way is made stiffer before. Where the wall already makes it stiff
@@ -108,6 +92,7 @@ class Pilot:
         NavigationError
             If no field does what is asked for.
         """
+        halves = tuned.PILOT.halves if halves is None else halves
         try:
             return self._step(last, feed)
         except NavigationError:
@@ -120,14 +105,14 @@ class Pilot:
         """Feed the model on at once, after making it as stiff as it takes."""
         model, moved = self.model, abs(feed - last.feed)
         model.return_to(last.snapshot)
-        for _ in range(TRIES):
+        for _ in range(tuned.PILOT.tries):
             try:
                 view = self._reach(feed, last, moved)
             except NavigationError as failure:
                 lost = failure
             else:
                 demanded = self.programme.demands.stability_margin
-                self._margin = max(demanded, RELAXING * self._margin)
+                self._margin = max(demanded, tuned.PILOT.relaxing * self._margin)
                 return [last, Knot(feed, model.remember(), view)]
             if last.view is None:
                 break
@@ -140,8 +125,8 @@ class Pilot:
 
     def _stiffer(self, eigenvalue: float) -> float:
         """The margin with which to try again after the wire was lost with this eigenvalue."""
-        faster = STIFFER if self._is_firm(eigenvalue) else 2.0
-        return max(faster * self._margin, STIFFER * eigenvalue)
+        faster = tuned.PILOT.stiffer if self._is_firm(eigenvalue) else 2.0
+        return max(faster * self._margin, tuned.PILOT.stiffer * eigenvalue)
 
     def _is_firm(self, eigenvalue: float) -> bool:
         """Whether the wall makes the wire stiff."""
@@ -164,7 +149,7 @@ class Pilot:
                 f"{where} the wire becomes unstable before the field can follow; try a smaller "
                 "plan_every or a larger stability_margin."
             )
-        slip = SLIP * view.radius
+        slip = tuned.PILOT.slip * view.radius
         if seen is None or view.distance <= max(
             self.programme.wider_room(view) + slip, seen.distance + slip
         ):
@@ -194,12 +179,12 @@ class Pilot:
 
     def _settled(self, view: View, before: Array, moved: float) -> View:
         """Change the field until no programme makes it better."""
-        stiffness = INERTIA * self._length / moved
-        wedged = view.eigenvalue > WEDGED * self.programme.demands.stability_margin
+        stiffness = tuned.PILOT.inertia * self._length / moved
+        wedged = view.eigenvalue > tuned.PILOT.wedged * self.programme.demands.stability_margin
         touchy = not wedged and self.model.near_wall
         if touchy:
-            self._trust = max(self._trust, FRESH)
-        for _ in range(PROGRAMMES):
+            self._trust = max(self._trust, tuned.PILOT.fresh)
+        for _ in range(tuned.PILOT.programmes):
             change = self._change(view, before, stiffness, moved)
             view, part = self._try(change, view, before, stiffness)
             if part == 0.0 and touchy:
@@ -208,9 +193,9 @@ class Pilot:
                     view = past
                     continue
             wider = 2.0 if part == 1.0 else 1.5 * part
-            self._trust = min(TRUST, max(LEAST_TRUST, wider * self._trust))
-            enough = 1.0 if touchy else LEAST_PART
-            if part >= enough and norm(change) < SETTLED * self.programme.unit:
+            self._trust = min(tuned.PILOT.trust, max(tuned.PILOT.least_trust, wider * self._trust))
+            enough = 1.0 if touchy else 0.5**tuned.PILOT.halvings
+            if part >= enough and norm(change) < tuned.PILOT.settled * self.programme.unit:
                 break
         return view
 
@@ -221,10 +206,10 @@ class Pilot:
         nothing on the way may be better though what is beyond is.
         """
         model, programme = self.model, self.programme
-        stiffness, start = INERTIA * self._length / moved, self.model.remember()
+        stiffness, start = tuned.PILOT.inertia * self._length / moved, self.model.remember()
         least = programme.merit(view, before, stiffness, self._margin)
         there = model.look() if model.settle(start.inputs + change) else None
-        for _ in range(BEYOND):
+        for _ in range(tuned.PILOT.beyond):
             if there is None:
                 break
             change = self._change(there, before, stiffness, moved)
@@ -260,7 +245,7 @@ class Pilot:
         model, programme = self.model, self.programme
         merit = programme.merit(view, before, stiffness, self._margin)
         start, part = model.remember(), 1.0
-        for _ in range(HALVINGS):
+        for _ in range(tuned.PILOT.halvings):
             if model.settle(start.inputs + part * change):
                 there = model.look()
                 if there is not None:
@@ -278,7 +263,7 @@ class Pilot:
         weak = demands.weakening
         flux, room = norm(view.flux) / weak, programme.room(view)
         planned = norm(view.offset + (1.0 / weak - 1.0) * (view.offset_by_flux @ view.flux))
-        missed = MISSED * view.radius
+        missed = tuned.PILOT.missed * view.radius
         touches, wider = programme.touches(view), programme.wider_room(view)
         within = f"{where} no stable field was found that keeps the tip within"
         if planned > min(room + missed, touches):
@@ -292,7 +277,7 @@ class Pilot:
                 f"{within} {wider * 1e3:.3g} mm of the centreline should it be weaker; with "
                 f"{norm(view.flux) * 1e3:.3g} mT it is {view.distance * 1e3:.3g} mm away."
             )
-        if view.eigenvalue < (1.0 - MISSED) * demands.stability_margin:
+        if view.eigenvalue < (1.0 - tuned.PILOT.missed) * demands.stability_margin:
             raise NavigationError(
                 f"{where} the equilibrium's stability is {view.eigenvalue:.3g} rad^2/s^2 at best; "
                 f"the margin asked for is {demands.stability_margin:.3g} rad^2/s^2."

@@ -15,6 +15,7 @@ import daqp
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.navigate import tuned
 from magwire.navigate.demands import Demands
 from magwire.navigate.model import View
 
@@ -25,9 +26,6 @@ ANGLES = 2.0 * np.pi * np.arange(SIDES) / SIDES
 NORMALS: Array = np.stack([np.cos(ANGLES), np.sin(ANGLES)], axis=1)
 STARTS = (0, 3 * SIDES, 3 * SIDES + 3)  # rows about the offset, the eigenvalue, the field itself
 MISSES: Array = -np.repeat(np.eye(3), (3 * SIDES, 3, 1), axis=0)
-PENALTY = 300.0  # price of missing a constraint: it is paid only where there is no other way
-OFF_ROOM = 1.3  # room for the tip in a field that is off, over the room in the field itself
-MOST_ROOM = 0.85  # of that, as a part of the distance to the wall
 FREE = 1e30  # no bound
 
 
@@ -60,8 +58,8 @@ class Programme:
 
     def wider_room(self, view: View) -> float:
         """How far from the centreline the tip may be in a field that is off [m]."""
-        most = min(MOST_ROOM * (view.radius - self.keep_off), self.touches(view))
-        return max(self.room(view), min(OFF_ROOM * self.room(view), most))
+        most = min(tuned.PROGRAMME.most_room * (view.radius - self.keep_off), self.touches(view))
+        return max(self.room(view), min(tuned.PROGRAMME.off_room * self.room(view), most))
 
     def touches(self, view: View) -> float:
         """How far from the centreline the tip is when the wall begins to press on it [m]."""
@@ -72,7 +70,9 @@ class Programme:
         _, upper = constraints(self, view, margin)
         missed = np.maximum(0.0, -np.minimum.reduceat(upper, STARTS))
         b, change = view.flux / self.unit, (view.flux - before) / self.unit
-        return 0.5 * float(b @ b + stiffness * change @ change) + PENALTY * float(missed.sum())
+        return 0.5 * float(b @ b + stiffness * change @ change) + tuned.PROGRAMME.penalty * float(
+            missed.sum()
+        )
 
     def change(
         self, view: View, before: Array, stiffness: float, margin: float, bounds: Array
@@ -96,7 +96,7 @@ class Programme:
         b, was = view.flux / self.unit, before / self.unit
         return solve(
             np.diag([1.0 + stiffness] * 3 + [1.0] * 3),
-            np.concatenate([b + stiffness * (b - was), [PENALTY] * 3]),
+            np.concatenate([b + stiffness * (b - was), [tuned.PROGRAMME.penalty] * 3]),
             rows,
             (np.full(len(upper), -FREE), upper),
             bounds / self.unit,

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from magwire.engine.system import System
 from magwire.errors import InputError, instance, positive
 from magwire.lumen import Lumen
+from magwire.navigate import tuned
 from magwire.navigate.demands import Demands
 from magwire.navigate.model import InModel, Model
 from magwire.navigate.navigator import NavigationError, Observation
@@ -24,11 +25,6 @@ from magwire.navigate.swing import Swings
 
 Array = NDArray[np.float64]
 
-REFERENCE = 100.0  # field of order one, in EI/(M L^2) with the model's reach as L
-AHEAD = 0.15  # feed that the plan runs ahead, in that length
-SCOUT = 0.15  # feed beyond the plan's end in which the wall must come to hold the wire, in that
-GROWTH = 2.0  # of the field over SPAN with which another course is looked for
-SPAN = 0.1  # feed, in that length
 CLOSE = 1e-9  # two feeds are the same [m]
 
 
@@ -87,7 +83,7 @@ class StableNavigator:
         self._take_up(observation.feed, back)
         end = until
         if not back and observation.goal is not None:
-            end = min(self._full_steps(until + AHEAD * self._length), observation.goal)
+            end = min(self._full_steps(until + tuned.COURSE.ahead * self._length), observation.goal)
         self._extend(end)
         short = until - self._knots[-1].feed
         if self._failure is not None and (short < -CLOSE if back else short > CLOSE):
@@ -125,7 +121,7 @@ class StableNavigator:
         longer = system.wire.length / self.model.reach
         programme = Programme(
             demands,
-            REFERENCE * system.scales.flux_density * longer**2,
+            tuned.COURSE.reference * system.scales.flux_density * longer**2,
             system.keep_off,
             system.firmness.activation_gap,
         )
@@ -200,9 +196,13 @@ class StableNavigator:
         last = self._knots[-1]
         if self._back or self._swings.is_held(last.view):
             return False
-        near = [k for k in self._knots if k.feed >= last.feed - SPAN * self._length - CLOSE]
+        near = [
+            k for k in self._knots if k.feed >= last.feed - tuned.COURSE.span * self._length - CLOSE
+        ]
         large = norm(last.flux) > self._pilot.programme.unit
-        return large and norm(last.flux) > GROWTH * max(norm(near[0].flux), self._searched)
+        return large and norm(last.flux) > tuned.COURSE.growth * max(
+            norm(near[0].flux), self._searched
+        )
 
     def _swing(self) -> bool:
         """Take the plan back to where the wire can swing onto the wall; whether it can."""
@@ -229,7 +229,7 @@ class StableNavigator:
         found: list[Knot] = []
         try:
             while not self._swings.is_held(last.view):
-                if last.feed > min(knots[-1].feed + SCOUT * self._length, farthest):
+                if last.feed > min(knots[-1].feed + tuned.COURSE.scout * self._length, farthest):
                     return []
                 *_, last = scout.advance(last, last.feed + self.plan_every)
             scout.forget()

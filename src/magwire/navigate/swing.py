@@ -18,6 +18,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.navigate import tuned
 from magwire.navigate.model import Model, View
 from magwire.navigate.pilot import Knot, norm
 from magwire.navigate.programme import Programme
@@ -25,24 +26,7 @@ from magwire.navigate.schedule import Schedule
 
 Array = NDArray[np.float64]
 
-SPACING = 0.12  # between the places where the tip may start, in the lumen's radius
-COARSE = 0.24  # and between those where it may arrive
-MARGINAL = 1.15  # room for these places, over the room for the tip
-BOUND = 0.8  # of the tip's offset while the wire swings, in the lumen's radius
-OFF = 0.6  # part of the field's tolerance that is asked for while the wire swings
-SUPPORT = 20.0  # eigenvalue above which the wall must be holding the wire, in stability margins
-PRESS = 1.25  # field in which the wire arrives, over the least that holds it there
 ROUND = 1e-9  # round-off of feeds [m]
-SPARSE = 0.02  # feed between the fields that a course must also do with, in the model's reach
-LENGTH = 0.02  # of feed for the swing, in that length
-LEAD = 0.04  # of feed for the way to its start
-STEP = 0.02  # time step of a trial [s]
-PROGRAMMES = 12  # for one place, at most
-TRUST = 0.3  # largest change of a component of the field in one programme, in the unit of fields
-HALVINGS = 6
-DETOUR = 1.5  # field of a place on the way to others, over the largest that a swing may need
-GAIN = 0.005  # part by which the field must be less to be worth another try
-CLOSE = 0.05  # to a place, in the lumen's radius
 
 
 class Swings:
@@ -84,7 +68,7 @@ class Swings:
 
     def _refined(self, course: list[Knot]) -> list[Knot]:
         """The course with its start moved to where less field will do."""
-        for spacing in (0.5 * SPACING, 0.25 * SPACING):
+        for spacing in (0.5 * tuned.SWING.spacing, 0.25 * tuned.SWING.spacing):
             better: list[Knot] | None = course
             while better is not None:
                 course = better
@@ -99,7 +83,7 @@ class Swings:
         for angle in np.linspace(0.0, 2.0 * np.pi, 8, endpoint=False):
             aside = spacing * size * np.array([np.cos(angle), np.sin(angle)])
             place = self._send(start, (start.view.offset + aside) @ axes, norm(start.flux))
-            if place is not None and norm(place.flux) < (1.0 - GAIN) * norm(start.flux):
+            if place is not None and norm(place.flux) < (1.0 - tuned.SWING.gain) * norm(start.flux):
                 yield [*course[:-3], place, *course[-2:]]
 
     def _onto(
@@ -107,16 +91,22 @@ class Swings:
     ) -> list[tuple[float, list[Knot]]]:
         """Largest field, and course, of ways to swing to where a held knot is, or beside it."""
         length = self._length
-        starts = [k for k in free if k.feed <= landing.feed - LENGTH * length + ROUND]
-        leads = [k for k in starts if k.feed <= starts[-1].feed - LEAD * length + ROUND]
+        starts = [k for k in free if k.feed <= landing.feed - tuned.SWING.length * length + ROUND]
+        leads = [k for k in starts if k.feed <= starts[-1].feed - tuned.SWING.lead * length + ROUND]
         if not leads or leads[-1].view is None:
             return []
-        places = [p for p in self._places(starts[-1], SPACING, highest) if not self.is_held(p.view)]
-        landings = [p for p in self._places(landing, COARSE, highest) if self.is_held(p.view)]
+        places = [
+            p
+            for p in self._places(starts[-1], tuned.SWING.spacing, highest)
+            if not self.is_held(p.view)
+        ]
+        landings = [
+            p for p in self._places(landing, tuned.SWING.coarse, highest) if self.is_held(p.view)
+        ]
         found = []
         for place, aim in product(places, landings):
-            firm = replace(aim, snapshot=aim.snapshot.with_inputs(PRESS * aim.flux))
-            rest = replace(firm, feed=firm.feed + LENGTH * length)
+            firm = replace(aim, snapshot=aim.snapshot.with_inputs(tuned.SWING.press * aim.flux))
+            rest = replace(firm, feed=firm.feed + tuned.SWING.length * length)
             largest = max(norm(place.flux), norm(firm.flux))
             if largest <= highest:
                 found.append((largest, [*leads, place, firm, rest]))
@@ -124,15 +114,20 @@ class Swings:
 
     def is_held(self, view: View | None) -> bool:
         """Whether more than the field holds the wire: the wall, or the guide."""
-        return view is None or view.eigenvalue > SUPPORT * self.programme.demands.stability_margin
+        return (
+            view is None
+            or view.eigenvalue > tuned.SWING.support * self.programme.demands.stability_margin
+        )
 
     def _holds(self, course: Sequence[Knot]) -> bool:
         """Whether the wire goes along a course, and ends held, in all fields that may come."""
         weak = self.programme.demands.weakening
         plan = Schedule.along([(knot.feed, knot.flux / weak) for knot in course])
-        few = np.arange(0.0, (1.0 + SPARSE) * course[-1].feed, SPARSE * self._length)
+        few = np.arange(
+            0.0, (1.0 + tuned.SWING.sparse) * course[-1].feed, tuned.SWING.sparse * self._length
+        )
         sparse = Schedule(few, plan.at(few))
-        off = OFF * (1.0 - weak)
+        off = tuned.SWING.off * (1.0 - weak)
         trials = (plan.scaled(1.0 - off), sparse, plan, plan.scaled(1.0 + off))
         return self._follows(course[-3], trials[0]) and all(
             self._follows(course[-4], trial) for trial in trials
@@ -144,7 +139,7 @@ class Swings:
         model.return_to(start.snapshot)
         if not model.settle(plan.at(start.feed)[0]):
             return False
-        if any(part > BOUND for part in model.play(plan, self.speed, STEP)):
+        if any(part > tuned.SWING.bound for part in model.play(plan, self.speed, tuned.SWING.step)):
             return False
         view = model.look() if model.settle(plan.flux_density[-1]) else None
         return view is not None and self.is_held(view)
@@ -158,7 +153,7 @@ class Swings:
         if view is None:
             return []
         size, axes = view.radius, view.axes
-        room = MARGINAL * self.programme.room(view)
+        room = tuned.SWING.marginal * self.programme.room(view)
         first = np.round(view.offset / (spacing * size)).astype(int)
         seen, found = {tuple(first), *neighbours(tuple(first))}, []
         waiting = deque((cell, knot) for cell in sorted(seen))
@@ -178,23 +173,23 @@ class Swings:
         """The equilibrium with the tip at an offset in space, shape (3,) [m], from a knot."""
         model, programme = self.model, self.programme
         margin = programme.demands.stability_margin
-        bounds = TRUST * programme.unit * np.array([[-1.0] * 3, [1.0] * 3])
+        bounds = tuned.SWING.trust * programme.unit * np.array([[-1.0] * 3, [1.0] * 3])
         model.return_to(knot.snapshot)
         view = knot.view
         assert view is not None
-        for _ in range(PROGRAMMES):
+        for _ in range(tuned.SWING.programmes):
             change = programme.aim(view, view.axes @ target, margin, bounds)
             if change is None:
                 return None
             there = self._go(view, change)
-            if there is None or norm(model.flux) > DETOUR * highest:
+            if there is None or norm(model.flux) > tuned.SWING.detour * highest:
                 return None
             settled = norm(there.flux - view.flux) < 2e-3 * programme.unit
             view = there
             if settled:
                 break
         missed = float(np.linalg.norm(view.axes @ target - view.offset))
-        fits = missed <= CLOSE * view.radius and view.eigenvalue >= 0.9 * margin
+        fits = missed <= tuned.SWING.close * view.radius and view.eigenvalue >= 0.9 * margin
         if not fits:
             return None
         return Knot(knot.feed, model.remember(), view)
@@ -204,7 +199,7 @@ class Swings:
         model = self.model
         start = model.remember()
         least = min(0.4 * self.programme.demands.stability_margin, 0.9 * view.eigenvalue)
-        for _ in range(HALVINGS):
+        for _ in range(tuned.SWING.halvings):
             if model.settle(start.inputs + change):
                 there = model.look()
                 if there is not None and there.eigenvalue > least:
