@@ -10,6 +10,7 @@ import pytest
 from magwire.errors import InputError
 from magwire.lumen import Lumen
 from magwire.vessel import Vessel, survey
+from magwire.vessel.interior import SAMPLES, wall_samples
 from magwire.vessel.placement import Placement
 from magwire.vessel.smooth import smooth
 from vessel_files import Lines, fork, pieces, table, vtp
@@ -284,3 +285,10 @@ def test_a_tube_that_meets_itself(tmp_path: Path) -> None:
     (sentence,) = survey.self_contacts(vessel)
     assert "meets itself" in sentence
     assert not list(survey.self_contacts(read(tmp_path, fork())))
+
+
+def test_a_surface_of_more_triangles_than_samples_is_sampled_at_its_corners() -> None:
+    points = np.random.default_rng(0).random((300, 3))
+    triangles = np.random.default_rng(1).integers(300, size=(SAMPLES // 3 + 10, 3))
+    found, _ = wall_samples(points, triangles, 1e-3)
+    assert len(found) == 300

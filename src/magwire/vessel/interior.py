@@ -122,7 +122,7 @@ def wall_samples(points: Array, triangles: Indices, spacing: float) -> tuple[Arr
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
     while True:
         parts = np.maximum(np.ceil(longest / spacing).astype(np.int64), 1)
-        if ((parts + 1) * (parts + 2) // 2).sum() <= SAMPLES:
+        if ((parts + 1) * (parts + 2) // 2).sum() <= max(SAMPLES, 3 * len(parts)):  # all corners
             break
         spacing *= 1.3
     found = []

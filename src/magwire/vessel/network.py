@@ -301,7 +301,7 @@ class Network:
         found = [node]
         while True:
             onward = [n for n in self._beside(found[-1]) if n not in (ahead, *found[-2:])]
-            if len(onward) != 1:
+            if len(onward) != 1 or onward[0] == node:
                 return found if len(found) < 2 or not onward else found[:-1]
             found.append(onward[0])
 
