@@ -267,7 +267,7 @@ class Session:
                 "Input motion of Simulation.session must be 'quasi-static' for sensitivities; "
                 "received 'dynamic'."
             )
-        return goes_on(self.plant, output, wrt, change)
+        return goes_on(self.plant.rubbing, output, wrt, change)
 
     def record(self) -> Record:
         """The whole state, as a result file has it."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from engine.test_rubbing import ends
 from magwire.contact import Barrier, Friction
 from magwire.engine.departure import departs
-from magwire.engine.rubbing import Branches, Rubbing
+from magwire.engine.rubbing import Branches
 from magwire.kernels.arrays import Motion
 from magwire.kernels.assembly import assemble
 from magwire.kernels.band import HALF_BANDWIDTH
@@ -82,7 +82,7 @@ def most(session: Session) -> float:
     free, ei = plant.feed - 0.5e-3, 3e6 * 0.25 * np.pi * RADIUS**4  # from half an edge behind
     rod = np.diag([3e6 * np.pi * RADIUS**2 / free, 12.0 * ei / free**3, 4.0 * ei / free])
     rod[1, 2] = rod[2, 1] = -6.0 * ei / free**2
-    scales, follows = plant.system.scales, Rubbing(plant).walls[1].toarray()[-4:-1, -4:-1]
+    scales, follows = plant.system.scales, plant.rubbing.walls[1].toarray()[-4:-1, -4:-1]
     b = -float(n @ follows @ n) * scales.force / scales.length
     way = np.array([n[1], -n[0], RADIUS * n[1] ** 2])
     return float(1.0 / (b * n @ np.linalg.solve(rod + b * np.outer(n, n), way)))
@@ -98,7 +98,7 @@ def test_a_strut_leaves_where_friction_falls_faster_than_its_push(load: float) -
         assert part == pytest.approx(1.0, abs=0.02)
     assert session.stable == (load < 0.0)
     assert session.record().stable == (load < 0.0)
-    assert departs(Rubbing(session.plant)) == (load > 0.0)
+    assert departs(session.plant.rubbing) == (load > 0.0)
 
 
 @pytest.mark.parametrize("load", [-3e-6, 3e-6])
@@ -121,7 +121,7 @@ def test_a_tip_inside_its_cone_stays() -> None:
     friction.kinetic[:] *= 2.0
     session.plant.state.contact[-1, SLIP : SLIP + 3] *= 0.5
     assert session.stable
-    assert not departs(Rubbing(session.plant))
+    assert not departs(session.plant.rubbing)
 
 
 @pytest.mark.parametrize("back", [0.0, 1e-4])
@@ -130,7 +130,7 @@ def test_the_kernels_tangent_is_that_by_complex_steps(back: float) -> None:
     session, here = ends(back)
     session.restore(here)
     assert session.stable
-    plant, rubbing = session.plant, Rubbing(session.plant)
+    plant, rubbing = session.plant, session.plant.rubbing
     (rod, _, wall, lumen), state, work = plant.model, plant.state, plant.work
     friction, held = wall.friction[0], plant.mouth.held
     hold_walls(wall.friction, rod, lumen, wall, state, held, work)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from magwire.contact import Barrier, Friction, WallMotion
 from magwire.engine import system
 from magwire.engine.plant import Snapshot
-from magwire.engine.rubbing import Branches, Change, Course, Rubbing
+from magwire.engine.rubbing import Branches, Change, Course
 from magwire.errors import InputError
 from magwire.session import Session
 from magwire.simulation import Simulation
@@ -103,7 +103,7 @@ def test_contacts_inside_their_cones_are_springs(wrt: Course) -> None:
         session.step(feed_speed=5e-3, inputs=(0.0, 2e-3, 4e-3))
     for _ in range(20):
         session.step(feed_speed=-1e-8 / session.time_step)
-    contacts, here = Rubbing(session.plant).contacts, session.snapshot()
+    contacts, here = session.plant.rubbing.contacts, session.snapshot()
     assert len(contacts.node) > 0
     assert not contacts.on.any()
     for change, sign in (("rising", 1.0), ("falling", -1.0)):
@@ -115,7 +115,7 @@ def test_contacts_inside_their_cones_are_springs(wrt: Course) -> None:
 def test_the_tangent_is_not_symmetric_where_contacts_slide() -> None:
     session, here = ends(0.0)
     session.restore(here)
-    rubbing = Rubbing(session.plant)
+    rubbing = session.plant.rubbing
     on = rubbing.contacts.on
     assert on.sum() > 8
     sliding, _ = rubbing.friction(Branches(on, ~on))

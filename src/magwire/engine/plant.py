@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from magwire.engine.command import Drive
 from magwire.engine.departure import departs
 from magwire.engine.observation import Observation
+from magwire.engine.point import Point
 from magwire.engine.record import Record, Totals, row_type, sheet_of
 from magwire.engine.rubbing import Rubbing
-from magwire.engine.sampling import SAMPLINGS, mismatch, sample
+from magwire.engine.sampling import SAMPLINGS, mismatch, sample, unsampled_stiffness
 from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.field import FieldSource
@@ -299,7 +300,16 @@ class Plant:
         """
         if seen.stable or not self._wall.friction or self.system.wall_motion:
             return seen.stable
-        return not departs(Rubbing(self))
+        return not departs(self.rubbing)
+
+    @property
+    def rubbing(self) -> Rubbing:
+        """The wire at rest where it is, with its contacts (P-33)."""
+        system, source = self.system.smooth, self.source
+        point = Point(system, self.samples(), self.snapshot().state, self.mouth)
+        if not source.affine:
+            point = replace(point, unsampled=unsampled_stiffness(system, source, point.state))
+        return Rubbing(point, self._wall.friction)
 
     def use(self, source: FieldSource) -> None:
         """Be in another outside field from now on."""

@@ -10,22 +10,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from magwire.engine.point import Point
-from magwire.engine.sampling import unsampled_stiffness
 from magwire.engine.sensitivity import Output, derivative
 from magwire.errors import ConvergenceError, InputError
 from magwire.kernels.arrays import Friction, Motion, Wall
 from magwire.kernels.assembly import FIRST, assemble
 from magwire.kernels.band import WIDTH
 from magwire.kernels.wall.traction import FACTOR, SLIDES, SLIP
-
-if TYPE_CHECKING:
-    from magwire.engine.plant import Plant
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -73,19 +69,18 @@ class Branches(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Rubbing:
-    """A wire at rest at the end of a course, with its contacts."""
+    """A wire at rest at the end of a course, with its contacts; ``Plant.rubbing`` makes it.
 
-    plant: Plant
+    Attributes
+    ----------
+    point
+        The same without friction.
+    rubs
+        Friction of the wall, if there is any.
+    """
 
-    @cached_property
-    def point(self) -> Point:
-        """The same without friction."""
-        plant, system = self.plant, self.plant.system.smooth
-        point = Point(system, plant.samples(), plant.snapshot().state, plant.mouth)
-        if plant.source.affine:
-            return point
-        extra = unsampled_stiffness(system, plant.source, point.state)
-        return Point(system, point.field, point.state, point.mouth, unsampled=extra)
+    point: Point
+    rubs: tuple[Friction, ...]
 
     @cached_property
     def first(self) -> int:
@@ -137,8 +132,7 @@ class Rubbing:
     @cached_property
     def contacts(self) -> Contacts:
         """Those with a normal force and a cone."""
-        wall: Any = self.plant.model[2]
-        friction: Friction = wall.friction[0]
+        friction = self.rubs[0]
         state, tip = self.point.state, len(self.point.state.q) - 1
         push = self.walls[0]
         kept = state.contact
@@ -294,15 +288,14 @@ class Rubbing:
         )
 
 
-def goes_on(plant: Plant, output: Output, wrt: Course, change: Change) -> Array:
+def goes_on(held: Rubbing, output: Output, wrt: Course, change: Change) -> Array:
     """Derivative of an output by an input, from one side; see ``Session.sensitivity``."""
-    if plant.system.wall_motion:
+    point = held.point
+    if point.system.wall_motion:
         raise InputError(
             "Simulation must have its wall at rest for sensitivities; it moves by wall_motion."
         )
-    held = Rubbing(plant)
-    point = held.point
-    if not plant.model[2].friction or point.mouth.held == len(point.state.q) - 1:
+    if not held.rubs or point.mouth.held == len(point.state.q) - 1:
         return derivative(point, output, wrt)
     direction = 1.0 if change == "rising" else -1.0
     lead = np.zeros(point.state.q.shape)
