@@ -32,20 +32,23 @@ class Variable:
     long_name
         What it is.
     read
-        Its values, with time as their first axis, from the numbers of many records, by the names of
-        ``Record``, and what is known of the run; those of its own name if left out.
+        Its value at one time, from the record and what is known of the run.
     dtype
         Type of the numbers.
     extra
         Further attributes.
+    column
+        In place of ``read``, for speed: its values, with time as their first axis, from the numbers
+        of many records by the names of ``Record``. Without either they are those of its own name.
     """
 
     dims: tuple[str, ...]
     units: str
     long_name: str
-    read: Callable[[NDArray[Any], RunInfo], NDArray[Any]] | None = None
+    read: Callable[[Record, RunInfo], Any] | None = None
     dtype: np.dtype[Any] = FLOAT
     extra: tuple[tuple[str, Any], ...] = ()
+    column: Callable[[NDArray[Any], RunInfo], NDArray[Any]] | None = None
 
 
 @dataclass(frozen=True)
@@ -84,7 +87,7 @@ VARIABLES: dict[str, Variable] = {
     "feed": Variable(("time",), "m", "insertion: length of wire inside the lumen"),
     "position": Variable(("time", "node", "xyz"), "m", "positions of the nodes"),
     "field": Variable(
-        ("time", "xyz"), "T", "flux density at the tip", lambda r, _: r["flux_density"]
+        ("time", "xyz"), "T", "flux density at the tip", column=lambda r, _: r["flux_density"]
     ),
     "inputs": Variable(
         ("time", "input"),
@@ -181,16 +184,19 @@ VARIABLES: dict[str, Variable] = {
         ("time",),
         "1",
         "insertion length over length of the wire",
-        lambda r, i: r["feed"] / i.scales.length,
+        column=lambda r, i: r["feed"] / i.scales.length,
     ),
     "normalized_field": Variable(
         ("time", "xyz"),
         "1",
         "flux density at the tip times |M| L^2 / EI",
-        lambda r, i: r["flux_density"] / i.scales.flux_density,
+        column=lambda r, i: r["flux_density"] / i.scales.flux_density,
     ),
     "normalized_tip_force": Variable(
-        ("time",), "1", "tip force times L^2 / EI", lambda r, i: r["tip_force"] / i.scales.force
+        ("time",),
+        "1",
+        "tip force times L^2 / EI",
+        column=lambda r, i: r["tip_force"] / i.scales.force,
     ),
 }
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from magwire.engine.record import Record, RunInfo, row_type
 from magwire.kernels.sheet import NUMBERS
-from magwire.results.contract import VARIABLES
+from magwire.results.contract import VARIABLES, Variable
 
 TIME = NUMBERS.index("time")
 
@@ -55,12 +55,18 @@ class Rows:
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """The variables, each with time as its first axis: in part views of this memory."""
-        rows = self._numbers[: self._count].view(self._kind)[:, 0]
-        made = {
-            name: rows[name] if v.read is None else v.read(rows, self._info)
-            for name, v in VARIABLES.items()
+        return {
+            name: self._column(name, variable).astype(variable.dtype, copy=False)
+            for name, variable in VARIABLES.items()
         }
-        return {name: made[name].astype(v.dtype, copy=False) for name, v in VARIABLES.items()}
+
+    def _column(self, name: str, variable: Variable) -> NDArray[Any]:
+        numbers = self._numbers[: self._count]
+        if variable.read is not None:
+            records = (Record(row, self._kind) for row in numbers)
+            return np.array([variable.read(record, self._info) for record in records])
+        rows = numbers.view(self._kind)[:, 0]
+        return rows[name] if variable.column is None else variable.column(rows, self._info)
 
 
 class Held:
