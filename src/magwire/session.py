@@ -267,6 +267,10 @@ class Session:
                 "Input motion of Simulation.session must be 'quasi-static' for sensitivities; "
                 "received 'dynamic'."
             )
+        if self.plant.system.wall_motion:
+            raise InputError(
+                "Simulation must have its wall at rest for sensitivities; it moves by wall_motion."
+            )
         return goes_on(self.plant.rubbing, output, wrt, change)
 
     def record(self) -> Record:

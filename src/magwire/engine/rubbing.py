@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from magwire.engine.point import Point
 from magwire.engine.sensitivity import Output, derivative
-from magwire.errors import ConvergenceError, InputError
+from magwire.errors import ConvergenceError
 from magwire.kernels.arrays import Friction, Motion, Wall
 from magwire.kernels.assembly import FIRST, assemble
 from magwire.kernels.band import WIDTH
@@ -291,10 +291,6 @@ class Rubbing:
 def goes_on(held: Rubbing, output: Output, wrt: Course, change: Change) -> Array:
     """Derivative of an output by an input, from one side; see ``Session.sensitivity``."""
     point = held.point
-    if point.system.wall_motion:
-        raise InputError(
-            "Simulation must have its wall at rest for sensitivities; it moves by wall_motion."
-        )
     if not held.rubs or point.mouth.held == len(point.state.q) - 1:
         return derivative(point, output, wrt)
     direction = 1.0 if change == "rising" else -1.0
