@@ -48,7 +48,7 @@ def by_case(rows: Sequence[Row], push: float) -> Table:
 def by_friction(rows: Sequence[Row]) -> Table:
     """Each case with friction next to the same without."""
     made = table(
-        "12  Friction: passive, dt = 10 ms",
+        "13  Friction: passive, dt = 10 ms",
         *("case", "mu", "ms/step", "min", "ratio", "ratio\nof min", "Newton\n/step"),
         *("factor.\n/step", "retries", "peak F*"),
     )

@@ -172,7 +172,7 @@ def by_environment(rows: Sequence[Row]) -> Table:
 def by_driving(rows: Sequence[Row]) -> Table:
     """The live simulator in a browser."""
     made = table(
-        "13  Live simulator: key to changed picture, and pictures while a key is held",
+        "14  Live simulator: key to changed picture, and pictures while a key is held",
         *("", "painted by", "key to picture\n[ms]", "worst", "pictures\n/s", "clock"),
     )
     for row in rows:

@@ -81,10 +81,10 @@ def tables(results: dict[str, Any]) -> Iterator[tuple[Table, str]]:
         yield others.by_engine(results["engines"]), others.ENGINES_NOTE
     if results.get("learning"):  # samples of older builds have none
         yield others.by_environment(results["learning"]), others.LEARNING_NOTE
-    if results.get("driving"):
-        yield others.by_driving(results["driving"]), others.DRIVING_NOTE
     if results.get("friction"):  # samples of earlier versions have none
         yield marches.by_friction(results["friction"]), marches.FRICTION_NOTE
+    if results.get("driving"):
+        yield others.by_driving(results["driving"]), others.DRIVING_NOTE
 
 
 def heading(results: dict[str, Any]) -> list[str]:
