@@ -6,7 +6,7 @@ way the magnet points, kappa = b/B with b = m B L^2/EI; the length is an assumpt
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
@@ -38,27 +38,10 @@ def pose(distance: float, angle: float, attracts: bool) -> Array:
 @cache
 def wire(length: float, kappa: float) -> mw.Wire:
     """A wire that is magnetised all along, with kappa [1/T]."""
-    one = mw.Wire.uniform(
-        length=length,
-        radius=0.2e-3,
-        youngs_modulus=3e6,
-        shear_modulus=1e6,
-        density=2000.0,
-        nodes=NODES,
-        magnetized_tip=length,
-        magnetization=1e3,
-    )
+    made = partial(mw.Wire.uniform, length, 0.2e-3, 3e6, 1e6, 2000.0, NODES, magnetized_tip=length)
+    one = made(magnetization=1e3)
     per_tesla = one.moment_per_length * length**2 / one.bending_stiffness
-    return mw.Wire.uniform(
-        length=length,
-        radius=0.2e-3,
-        youngs_modulus=3e6,
-        shear_modulus=1e6,
-        density=2000.0,
-        nodes=NODES,
-        magnetized_tip=length,
-        magnetization=1e3 * kappa / per_tesla,
-    )
+    return made(magnetization=1e3 * kappa / per_tesla)
 
 
 @cache

@@ -35,16 +35,20 @@ from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.history import copy_state
 from magwire.kernels.march import RETRIES, Tally
 from magwire.kernels.newton import CONVERGED, Limits
-from magwire.kernels.sheet import NUMBERS
+from magwire.kernels.sheet import (
+    CLEARANCE_ALONG,
+    NEWTON_ITERATIONS,
+    SMALLEST_CLEARANCE,
+    STABLE,
+    TIME,
+    TIP_DEPARTURE,
+    TIP_OFFSET,
+    WALL_TIME,
+)
 from magwire.kernels.sources.steer import steer
 
 Array = NDArray[np.float64]
 
-TIME, WALL_TIME = NUMBERS.index("time"), NUMBERS.index("wall_time")
-CLEARANCE_ALONG, STABLE = NUMBERS.index("clearance_along"), NUMBERS.index("stable")
-SMALLEST_CLEARANCE = NUMBERS.index("smallest_clearance")
-NEWTON_ITERATIONS = NUMBERS.index("newton_iterations")
-TIP_DEPARTURE, TIP_OFFSET = NUMBERS.index("tip_departure"), NUMBERS.index("tip_offset")
 DEEP = 0.8  # part of how deep a wall may be pressed in, from which on that may stop a step
 
 

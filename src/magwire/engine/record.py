@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.contact import WallMotion
-from magwire.kernels.sheet import NUMBERS, Sheet
+from magwire.kernels.sheet import MAX_TIP_FORCE, NUMBERS, STABLE, Sheet
 from magwire.units import show
 
 Array = NDArray[np.float64]
@@ -31,8 +31,7 @@ BLOCKS: dict[str, tuple[str, ...]] = {
     "material_director": ("node", "xyz"),
 }
 """Arrays of a record, as ``Sheet`` has them after its numbers, and their dimensions."""
-STABLE = NUMBERS.index("stable")
-TOTALS = slice(NUMBERS.index("max_tip_force"), len(NUMBERS))
+TOTALS = slice(MAX_TIP_FORCE, len(NUMBERS))
 PATCH = 5e-3  # length of wire over which forces are summed or averaged [m]
 EDGES = 2.0  # edges in a patch at least: forces are not known any finer
 
@@ -263,7 +262,7 @@ class Record:
 
     @property
     def stable(self) -> bool:
-        """Whether the tangent stiffness is positive definite."""
+        """Whether the wire stays where it is; see the class."""
         return bool(self.row[STABLE])
 
     @property

@@ -11,7 +11,28 @@ from magwire.kernels.centreline import FIRST as FIRST_PIECE
 from magwire.kernels.centreline import PIECES, SPACING, spline
 from magwire.kernels.hinge import material_frame
 from magwire.kernels.lanes import clear_rows
-from magwire.kernels.sheet import NUMBERS
+from magwire.kernels.sheet import (
+    CLEARANCE_ALONG,
+    CLEARANCE_MIDPOINT,
+    FACTORISATIONS,
+    FEED,
+    FIRST_CONTACT_FEED,
+    FRICTION_WORK,
+    GUIDE_TORQUE,
+    GUIDE_TWIST,
+    INSERTION_FORCE,
+    MAX_TIP_FORCE,
+    MEAN_TIP_FORCE,
+    NEWTON_ITERATIONS_TOTAL,
+    PUSH_FORCE,
+    RETRIES,
+    STABLE,
+    STEPS,
+    TIP_FORCE,
+    TIP_OFFSET,
+    TIP_TWIST,
+    WALL_WORK,
+)
 from magwire.kernels.sources.steer import field_of
 from magwire.kernels.vectors import add, combine, cross, dot, norm, row, scale, sub
 from magwire.kernels.wall.between import thick_at
@@ -22,26 +43,6 @@ from magwire.kernels.wall.motion import at_rest, displacement_at, pace
 from magwire.kernels.wall.onward import hold_walls, positive
 from magwire.kernels.wall.traction import SLID
 
-FEED = NUMBERS.index("feed")
-GUIDE_TWIST = NUMBERS.index("guide_twist")
-TIP_TWIST = NUMBERS.index("tip_twist")
-CLEARANCE_MIDPOINT = NUMBERS.index("clearance_midpoint")
-CLEARANCE_ALONG = NUMBERS.index("clearance_along")
-TIP_FORCE = NUMBERS.index("tip_force")
-TIP_OFFSET = NUMBERS.index("tip_offset")
-FRICTION_WORK = NUMBERS.index("friction_work")
-WALL_WORK = NUMBERS.index("wall_work")
-PUSH_FORCE = NUMBERS.index("push_force")
-INSERTION_FORCE = NUMBERS.index("insertion_force")
-GUIDE_TORQUE = NUMBERS.index("guide_torque")
-STABLE = NUMBERS.index("stable")
-MAX_TIP_FORCE = NUMBERS.index("max_tip_force")
-MEAN_TIP_FORCE = NUMBERS.index("mean_tip_force")
-FIRST_CONTACT_FEED = NUMBERS.index("first_contact_feed")
-STEPS = NUMBERS.index("steps")
-NEWTON_ITERATIONS_TOTAL = NUMBERS.index("newton_iterations_total")
-FACTORISATIONS = NUMBERS.index("factorisations")
-RETRIES = NUMBERS.index("retries")
 GUARD = 1e-9  # for rounding, in wire lengths
 FINEST = 1.0 / 24.0  # part of an edge that the search for its nearest point passes over, at most
 

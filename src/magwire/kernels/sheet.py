@@ -14,6 +14,31 @@ NUMBERS = (
     "newton_iterations_total", "factorisations", "retries", "wall_time",
 )  # fmt: skip
 """Single numbers, in their order."""
+TIME = NUMBERS.index("time")
+FEED = NUMBERS.index("feed")
+CLEARANCE_MIDPOINT = NUMBERS.index("clearance_midpoint")
+CLEARANCE_ALONG = NUMBERS.index("clearance_along")
+TIP_FORCE = NUMBERS.index("tip_force")
+TIP_OFFSET = NUMBERS.index("tip_offset")
+FRICTION_WORK = NUMBERS.index("friction_work")
+WALL_WORK = NUMBERS.index("wall_work")
+GUIDE_TWIST = NUMBERS.index("guide_twist")
+TIP_TWIST = NUMBERS.index("tip_twist")
+PUSH_FORCE = NUMBERS.index("push_force")
+INSERTION_FORCE = NUMBERS.index("insertion_force")
+GUIDE_TORQUE = NUMBERS.index("guide_torque")
+NEWTON_ITERATIONS = NUMBERS.index("newton_iterations")
+STABLE = NUMBERS.index("stable")
+TIP_DEPARTURE = NUMBERS.index("tip_departure")
+MAX_TIP_FORCE = NUMBERS.index("max_tip_force")
+MEAN_TIP_FORCE = NUMBERS.index("mean_tip_force")
+FIRST_CONTACT_FEED = NUMBERS.index("first_contact_feed")
+SMALLEST_CLEARANCE = NUMBERS.index("smallest_clearance")
+STEPS = NUMBERS.index("steps")
+NEWTON_ITERATIONS_TOTAL = NUMBERS.index("newton_iterations_total")
+FACTORISATIONS = NUMBERS.index("factorisations")
+RETRIES = NUMBERS.index("retries")
+WALL_TIME = NUMBERS.index("wall_time")
 
 
 class Sheet(NamedTuple):

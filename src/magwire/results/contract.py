@@ -175,9 +175,11 @@ VARIABLES: dict[str, Variable] = {
         ("time",),
         "1",
         "whether the tangent stiffness is positive definite; under friction, whether it stays",
-        None,
-        np.dtype(np.int8),
-        (("flag_values", np.array([0, 1], dtype=np.int8)), ("flag_meanings", "unstable stable")),
+        dtype=np.dtype(np.int8),
+        extra=(
+            ("flag_values", np.array([0, 1], dtype=np.int8)),
+            ("flag_meanings", "unstable stable"),
+        ),
     ),
     "wall_time": Variable(("time",), "s", "time spent since the start of the run"),
     "normalized_push": Variable(

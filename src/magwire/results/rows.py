@@ -8,10 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.engine.record import Record, RunInfo, row_type
-from magwire.kernels.sheet import NUMBERS
+from magwire.kernels.sheet import TIME
 from magwire.results.contract import VARIABLES, Variable
-
-TIME = NUMBERS.index("time")
 
 
 class Rows:
