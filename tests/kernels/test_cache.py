@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import ast
 import os
 import subprocess
 import sys
 import tempfile
-from importlib import import_module
 from pathlib import Path
 
 import pytest
 
 from magwire.kernels import _jit
 from magwire.kernels.vectors import dot
-from magwire.kernels.wall.barrier import barrier
 
 if sys.platform == "win32":
     pytest.skip("folders of POSIX", allow_module_level=True)
@@ -96,34 +93,42 @@ def test_machine_code_lies_where_the_site_wants_it(tmp_path: Path) -> None:
     assert list(tmp_path.rglob("*.nbi")) == list(folder.rglob("*.nbi"))
 
 
-def test_a_kernel_for_kernels_is_called_from_python_all_the_same() -> None:
-    """Without the way in that numba compiles, a call from Python would end the process."""
-    assert isinstance(dot, _jit.Inner)
-    assert not isinstance(barrier, _jit.Inner)
-    assert dot((1.0, 2.0, 3.0), (4.0, 5.0, 6.0)) == 32.0
+def in_a_new_process(call: str, folder: Path) -> list[str]:
+    """What a call of kernels prints, and the names of the functions that numba compiled for it."""
+    listening = (
+        "from numba.core import event; made = event.RecordingListener();"
+        "event.register('numba:compile', made);"
+    )
+    names = "print(*sorted({e.data['dispatcher'].py_func.__qualname__ for _, e in made.buffer}))"
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder)}
+    environment.pop("MAGWIRE_CACHE", None)
+    done = subprocess.run(
+        [sys.executable, "-c", f"{listening}{call};{names}"],
+        env=environment,
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    return done.stdout.splitlines()
 
 
-def test_what_magwire_calls_from_python_is_compiled_for_that() -> None:
-    """A kernel for kernels would be compiled once more in every process."""
-    source = Path(_jit.__file__).parents[1]
-    seen, made_on_the_spot = 0, []
-    for file in source.rglob("*.py"):
-        if "kernels" in file.parts:
-            continue
-        tree = ast.parse(file.read_text(encoding="utf-8"))
-        homes = {
-            name.asname or name.name: (node.module, name.name)
-            for node in ast.walk(tree)
-            if isinstance(node, ast.ImportFrom)
-            and (node.module or "").startswith("magwire.kernels")
-            for name in node.names
-        }
-        for node in ast.walk(tree):
-            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
-                module, name = homes.get(node.func.id, (None, ""))
-                if module is not None:
-                    seen += 1
-                    if isinstance(getattr(import_module(module), name), _jit.Inner):
-                        made_on_the_spot.append(f"{file.name}: {name}")
-    assert seen > 50
-    assert made_on_the_spot == []
+def test_a_kernel_is_called_from_python_too(tmp_path: Path) -> None:
+    """The second process finds what the first compiled, and compiles nothing."""
+    assert isinstance(dot, _jit.Kernel)
+    call = "from magwire.kernels.vectors import dot; print(dot((1.0, 2.0, 3.0), (4.0, 5.0, 6.0)))"
+    assert in_a_new_process(call, tmp_path) == ["32.0", "dot-from-python"]
+    assert in_a_new_process(call, tmp_path) == ["32.0", ""]
+
+
+def test_callers_take_in_what_is_cached(tmp_path: Path) -> None:
+    """A new caller compiles itself alone where the kernels that it calls have been compiled."""
+    turned = "from magwire.kernels.hinge import {0}; print({0}((0.0, 0.0, 1.0), {1}))"
+    across = "(1.0, 0.0, 0.0), (0.0, 1.0, 0.0)"
+    assert in_a_new_process(turned.format("transport", across), tmp_path) == [
+        "(0.0, 0.0, 1.0)",
+        "add cross dot scale sub transport-from-python",
+    ]
+    assert in_a_new_process(turned.format("material_frame", "(1.0, 0.0, 0.0), 0.0"), tmp_path) == [
+        "((0.0, 0.0, 1.0), (0.0, -1.0, 0.0))",
+        "material_frame-from-python",
+    ]

@@ -8,10 +8,14 @@ import stat
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
+from types import FunctionType
 from typing import TypeVar, cast
 
 import numba
 from numba.core.registry import CPUDispatcher
+
+from magwire.kernels._collector import hold_back
+from magwire.kernels._inner import InnerCache, InnerCompiler
 
 Function = TypeVar("Function", bound=Callable[..., object])
 
@@ -80,6 +84,7 @@ CACHE = _cache_folder()
 """Where machine code is kept; None if there is no place to write to: each process compiles then."""
 if CACHE is not None:
     numba.config.CACHE_DIR = str(CACHE)
+hold_back()
 
 
 def compiled_before() -> bool:
@@ -90,24 +95,36 @@ def compiled_before() -> bool:
 SHARED = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
 
 
-class Inner(CPUDispatcher):  # type: ignore[misc]
-    """A kernel for kernels, without the way in from Python.
+class Kernel(CPUDispatcher):  # type: ignore[misc]
+    """A kernel, compiled for its callers without the way in from Python.
 
-    That way unpacks hundreds of arrays; compiled for every kernel, it took a third of a cold start.
-    Whoever calls such a kernel from Python all the same, as tests do, has it made on the spot.
+    That way unpacks hundreds of arrays: compiled for every kernel it took a third of a cold start.
+    The first call from Python compiles the function once more, with it.
     """
 
-    _from_python: Callable[..., object] | None = None
+    _door: Callable[..., object] | None = None
 
     def __call__(self, *args: object) -> object:
-        if self._from_python is None:
-            kernel = self
+        if self._door is None:
+            self._door = _compiled(_under_another_name(self.py_func), _nrt=False)
+        return self._door(*args)
 
-            def call(*args: object) -> object:
-                return kernel(*args)
+    def enable_caching(self) -> None:
+        self._cache = InnerCache(self.py_func)
 
-            self._from_python = numba.njit(_nrt=False, **SHARED)(call)
-        return self._from_python(*args)
+
+def _under_another_name(function: FunctionType) -> FunctionType:
+    """The same function; its machine code has a file of its own, named by the function."""
+    twin = FunctionType(
+        function.__code__,
+        function.__globals__,
+        function.__name__,
+        function.__defaults__,
+        function.__closure__,
+    )
+    twin.__module__, twin.__doc__ = function.__module__, function.__doc__
+    twin.__qualname__ = f"{function.__qualname__}-from-python"
+    return twin
 
 
 def kernel(function: Function) -> Function:
@@ -117,11 +134,6 @@ def kernel(function: Function) -> Function:
     step; a kernel that allocates memory is refused.
     """
     return _inner(function)
-
-
-def called(function: Function) -> Function:
-    """A kernel that is called from Python, too."""
-    return _compiled(function, _nrt=False)
 
 
 def part(function: Function) -> Function:
@@ -134,7 +146,7 @@ def short(function: Function) -> Function:
 
     A call hands over hundreds of pointers; on the way of every step that is a tenth of its time.
     """
-    return _compiled(function, _nrt=False, forceinline=True)
+    return _inner(function, forceinline=True)
 
 
 def entry(function: Function) -> Function:
@@ -159,7 +171,7 @@ def _compiled(function: Function, **more: object) -> Function:
 
 def _inner(function: Function, **more: object) -> Function:
     options = {"nopython": True, "no_cpython_wrapper": True, "_nrt": False, **SHARED, **more}
-    made = Inner(py_func=function, targetoptions=options)
+    made = Kernel(py_func=function, targetoptions=options, pipeline_class=InnerCompiler)
     if CACHE is not None:
         made.enable_caching()
     return cast(Function, made)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from math import inf
 
-from magwire.kernels._jit import called, kernel, part
+from magwire.kernels._jit import kernel, part
 from magwire.kernels.bending import (
     bending_gradient,
     bending_hessian,
@@ -278,7 +278,7 @@ def add_bodies(rod, state, motion, held, gradient, band):
     return total(energy)
 
 
-@called
+@kernel
 def assemble(model, state, mouth, motion, gradient, band):
     """Energy, and the smallest clearance where the wall is felt; fills gradient and band.
 

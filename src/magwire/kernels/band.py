@@ -9,7 +9,7 @@ A[i, j] = 0 for i > 4 (j // 4) + 10. Twelve rows more than the matrix has must b
 
 from __future__ import annotations
 
-from magwire.kernels._jit import called, kernel
+from magwire.kernels._jit import kernel
 from magwire.kernels.lanes import first as at0
 from magwire.kernels.lanes import four, load, splat, store, transposed
 from magwire.kernels.lanes import fourth as at3
@@ -32,7 +32,7 @@ def less(a, factor, b):
     return a[0] - factor * b[0], a[1] - factor * b[1], a[2] - factor * b[2]
 
 
-@called
+@kernel
 def factor(band, first, last):
     """Factor A = L D L^T of rows first ... last - 1 in place, with 1/D on the diagonal (P-5).
 
@@ -129,7 +129,7 @@ def last_left(c, f):
     return -((f[0] * c[0][2] + f[1] * c[1][2]) + (f[2] * c[2][2] + f[3] * c[3][2]))
 
 
-@called
+@kernel
 def solve(band, x, first, last):
     """Solve in place with the factor of rows first ... last - 1; x is indexed as the band."""
     begin = first - first % 4 + 4  # fours from here to ``end``, the rest one by one

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from numpy.typing import NDArray
 
-from magwire.kernels._jit import called, kernel
+from magwire.kernels._jit import kernel
 from magwire.kernels.vectors import combine, dot, norm, scale
 from magwire.kernels.wall.sheet import Sheet
 
@@ -249,7 +249,7 @@ def flattest(coefficients, branches, branch, begin, end, x, y, z, slack):
     return largest
 
 
-@called
+@kernel
 def settle(coefficients, branches, seed_branch, points, slack, seeds):
     """Move each seed to its maximum at the voxel's centre and find how that moves around it.
 

@@ -16,7 +16,7 @@ from numba.experimental.structref import _Utils
 from numba.extending import intrinsic
 from numpy import int64
 
-from magwire.kernels._jit import called, entry, kernel, part
+from magwire.kernels._jit import entry, kernel, part
 from magwire.kernels.arrays import Array, Index
 from magwire.kernels.glance import GLANCE, glance
 from magwire.kernels.march import Drive, march
@@ -152,7 +152,7 @@ def work_off(hand, orders, inertia):
             orders.held[i, c] = p.state.inputs[c]
 
 
-@called
+@kernel
 def count_steps(speed, rate, wanted, time, only, step, slack, counts):
     """Number of time steps of each wire's interval, -1 of a wire that stays as it is.
 
@@ -173,7 +173,7 @@ def count_steps(speed, rate, wanted, time, only, step, slack, counts):
     return most
 
 
-@called
+@kernel
 def lay_out(speed, rate, wanted, time, step, slack, length, orders):
     """Feeds, angles and inputs at the end of every step; a linear course of inputs."""
     for i in range(time.shape[0]):

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from magwire.kernels._jit import called, kernel
+from magwire.kernels._jit import kernel
 from magwire.kernels.hinge import reference_twist
 from magwire.kernels.vectors import row
 
 SMALLEST_PART = 1e-3  # conditioning guard: a hinge just released is stiff, not infinitely so
 
 
-@called
+@kernel
 def find_mouth(rod, guide, feed):
     """Last held node at a feed, and the part of its cell that is past the entrance."""
     tip = rod.station.shape[0] - 1
@@ -29,7 +29,7 @@ def find_mouth(rod, guide, feed):
     return low, max(SMALLEST_PART, (rod.cell_end[low] - entrance) / cell)
 
 
-@called
+@kernel
 def place_held(rod, guide, state, first, last, feed, twist):
     """Put nodes first ... last and the edges between them on the guide line."""
     entrance = rod.station[rod.station.shape[0] - 1] - feed

@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import atan2, cos, pi, sin, sqrt
 from typing import NamedTuple
 
-from magwire.kernels._jit import called, kernel
+from magwire.kernels._jit import kernel
 from magwire.kernels.vectors import add, cross, dot, scale, sub
 
 
@@ -38,7 +38,7 @@ def hinge(te, tf, length_e, length_f):
     return Hinge(te, tf, 1.0 / length_e, 1.0 / length_f, inv_chi, binormal, tilde)
 
 
-@called
+@kernel
 def transport(v, a, b):
     """Parallel transport of v from unit tangent a to unit tangent b, kept orthonormal to b.
 
@@ -51,7 +51,7 @@ def transport(v, a, b):
     return scale(1.0 / sqrt(dot(moved, moved)), moved)
 
 
-@called
+@kernel
 def material_frame(d1, t, theta):
     """Material directors m1, m2: the reference frame d1, t x d1 turned by theta (P-2)."""
     d2 = cross(t, d1)

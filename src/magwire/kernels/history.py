@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from magwire.kernels._jit import called, short
+from magwire.kernels._jit import kernel, short
 from magwire.kernels.lanes import copy_rows
 
 
@@ -17,7 +17,7 @@ def copy_configuration(source, target, held):
     copy_rows(source.director, target.director, begin, nodes - 1)
 
 
-@called
+@kernel
 def copy_state(source, target):
     """Copy all that a wire carries from one step to the next."""
     copy_configuration(source, target, 1)

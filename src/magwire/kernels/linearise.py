@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import sqrt
 from typing import NamedTuple
 
-from magwire.kernels._jit import called, kernel, part
+from magwire.kernels._jit import kernel, part
 from magwire.kernels.arrays import Array, Motion
 from magwire.kernels.assembly import FIRST, assemble
 from magwire.kernels.band import WIDTH, factor, solve
@@ -57,7 +57,7 @@ def load_of_field(rod, state, held, axis, rows):
         rows[i] = 0.0
 
 
-@called
+@kernel
 def tube_force(model, state, force, slope):
     """Force of the virtual tube on the tip (P-19).
 
@@ -126,7 +126,7 @@ def slowest_mode(band, rod, held, mode, last):
     return value
 
 
-@called
+@kernel
 def respond(model, state, mouth, work, linear):
     """Change of the unknowns by each field component, into ``linear.moves`` (P-21).
 
@@ -145,7 +145,7 @@ def respond(model, state, mouth, work, linear):
     return True
 
 
-@called
+@kernel
 def linearise(model, state, mouth, work, linear):
     """Linearise a stable equilibrium about its uniform field.
 
@@ -180,7 +180,7 @@ def linearise(model, state, mouth, work, linear):
     return value
 
 
-@called
+@kernel
 def steadiness(model, state, mouth, work, mode):
     """Smallest eigenvalue [rad^2/s^2] of an equilibrium in whatever field, 0 if it is not stable.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import NamedTuple
 
-from magwire.kernels._jit import called, kernel, part
+from magwire.kernels._jit import kernel, part
 from magwire.kernels.arrays import Array, Motion, Mouth
 from magwire.kernels.assembly import FIRST
 from magwire.kernels.frames import update_frames
@@ -251,7 +251,7 @@ def differ(a, b):
     return False
 
 
-@called
+@kernel
 def march(model, guide, state, work, limits, drive, tally):
     """Time steps along a drive, one after the other.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf
 from typing import NamedTuple
 
-from magwire.kernels._jit import called, kernel, part, short
+from magwire.kernels._jit import kernel, part, short
 from magwire.kernels.assembly import FIRST, assemble
 from magwire.kernels.band import factor, solve
 from magwire.kernels.frames import update_frames
@@ -229,7 +229,7 @@ def search(model, a, b, mouth, motion, work, limits, aim):
     return 0.0, lower, nearest, False
 
 
-@called
+@kernel
 def newton(model, state, mouth, motion, work, limits):
     """Minimise the energy from ``state``, which ends as the last iterate, converged or not.
 

@@ -6,7 +6,7 @@ from math import cos, inf, isfinite, sin, sqrt
 
 from numpy import int64
 
-from magwire.kernels._jit import called, entry, kernel, part
+from magwire.kernels._jit import entry, kernel, part
 from magwire.kernels.glance import GLANCE
 
 RADIUS, FRAME, ROW = 3, 4, 13
@@ -32,7 +32,7 @@ def look_up(table, spacing, place, row):
         row[c] = low + share * (table[below + 1, c] - low)
 
 
-@called
+@kernel
 def look_ahead(paths, spacing, goal, ahead, arc, seen, asked, last, limit, row, frames, out):
     """Numbers that are observed of each wire, and the frame of its path at its tip.
 
@@ -116,7 +116,7 @@ def report(crew, limit, off, arc, told, way, mine, row, frames, numbers, bound, 
     within(numbers, bound, out)
 
 
-@called
+@kernel
 def ask(share, frames, limit, most, only, asked):
     """Change inputs towards those of actions, as fast as they may.
 
@@ -139,7 +139,7 @@ def ask(share, frames, limit, most, only, asked):
             asked[i, c] += min(max(wanted - asked[i, c], -most), most)
 
 
-@called
+@kernel
 def settle(only, failed, taken, actions, before, arc, goal, force, weights, reward, ended):
     """Reward each wire for what it did, and see whether its episode is over.
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from math import atan, erf, exp, pi, sqrt, tanh
 
-from magwire.kernels._jit import called, kernel
+from magwire.kernels._jit import kernel
 from magwire.kernels.sources.table import ATAN, DIPOLE, ERF, RATIONAL, TANH, offsets
 from magwire.kernels.vectors import norm, scale
 
 
-@called
+@kernel
 def saturated(curve, a, b, u):
     """Effective input s(u) of an iron core, and ds/du; s = u where there is none."""
     if curve == ERF:
@@ -43,7 +43,7 @@ def turned(frame, local):
     )
 
 
-@called
+@kernel
 def drive(sources, u, strength):
     """Set the state ``strength`` to that of the inputs ``u``; see table.py."""
     slope, affine, dipole, multipole, loop, cylinder, _ = offsets(sources)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from magwire.kernels._jit import called
+from magwire.kernels._jit import kernel
 from magwire.kernels.sources.inputs import by_inputs
 from magwire.kernels.sources.jet import jet
 from magwire.kernels.vectors import row
 
 
-@called
+@kernel
 def sample(sources, strength, points, flux, gradient):
     """Flux density [n, 3] and gradient [n, 9] at points [n, 3]."""
     for i in range(points.shape[0]):
@@ -19,7 +19,7 @@ def sample(sources, strength, points, flux, gradient):
             gradient[i, c] = g[c]
 
 
-@called
+@kernel
 def respond(sources, u, strength, points, flux, gradient):
     """Derivatives by the inputs, [n, K, 3] and [n, K, 9], at points [n, 3]."""
     for i in range(points.shape[0]):

@@ -7,12 +7,12 @@ that compiling takes.
 
 from __future__ import annotations
 
-from magwire.kernels._jit import called, kernel
+from magwire.kernels._jit import kernel
 from magwire.kernels.sources.drive import drive
 from magwire.kernels.sources.jet import jet
 
 
-@called
+@kernel
 def steer(sources, inputs, strength):
     """Bring the actuator's state to its inputs."""
     if len(sources) == 0:

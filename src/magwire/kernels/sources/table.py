@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.kernels._jit import called
+from magwire.kernels._jit import kernel
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -75,7 +75,7 @@ class Sources(NamedTuple):
     pose_frame: Array
 
 
-@called
+@kernel
 def offsets(sources):
     """Where the parts of the state begin: slopes, affine, each kind; and its size."""
     slope = sources.curve.shape[0] + 1

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from math import log
 
-from magwire.kernels._jit import called
+from magwire.kernels._jit import kernel
 
 
-@called
+@kernel
 def barrier(d, gap):
     """Value, first and second derivative of -(d - gap)^2 log(d / gap), for 0 < d < gap."""
     away = d - gap

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from numpy.typing import NDArray
 
-from magwire.kernels._jit import called, kernel
+from magwire.kernels._jit import kernel
 from magwire.kernels.vectors import combine, dot, row, sub
 
 LEAF = 4
@@ -152,7 +152,7 @@ def signed(surface, p, q, triangle, where):
     return -away if dot(off, normal) > 0.0 else away
 
 
-@called
+@kernel
 def depths(surface, points, waiting, depth, triangle, nearest):
     """How deep points are inside of a surface, negative outside.
 
@@ -176,7 +176,7 @@ def depths(surface, points, waiting, depth, triangle, nearest):
             nearest[i, c] = q[c]
 
 
-@called
+@kernel
 def fill(surface, corner, cell, places, edge, halo, waiting, values, far):
     """Depths at a brick's own points of a lattice, over its spacing.
 
@@ -212,7 +212,7 @@ def fill(surface, corner, cell, places, edge, halo, waiting, values, far):
                     far[b, (i * edge + j) * edge + k] = surface.beyond[last]
 
 
-@called
+@kernel
 def surround(surface, corner, cell, places, beside, alone, edge, halo, waiting, values):
     """The depths around each brick: those of the bricks beside it, or new ones if there is none.
 
@@ -284,7 +284,7 @@ def root(parents, i):
     return i
 
 
-@called
+@kernel
 def agree(beside, edge, halo, values, far, parents, votes):
     """Have points that no wall can part take the same side, that of most of them.
 

@@ -20,7 +20,7 @@ from math import inf, nan, sqrt
 
 from numpy import int32
 
-from magwire.kernels._jit import called, kernel
+from magwire.kernels._jit import kernel
 from magwire.kernels.centreline import (
     BEGIN,
     BLEND,
@@ -294,7 +294,7 @@ def wall_jets(sheets, lumen, x, y, z):
         return g, nan, -1, safe, n, h
 
 
-@called
+@kernel
 def gap_value(lumen, x, y, z):
     """Gap of a point; as of ``balls_value``. At a wall of triangles S is nan and branch -1.
 
@@ -322,7 +322,7 @@ def slopes(sheets):
         return STEEPEST * sheets[0].steep, sheets[0].steep
 
 
-@called
+@kernel
 def gap_many(lumen, points, out_g, out_s, out_branch):
     """Gap, arc parameter and branch of each point, shapes [n, 3] and three times [n]."""
     for i in range(len(points)):
@@ -332,7 +332,7 @@ def gap_many(lumen, points, out_g, out_s, out_branch):
         out_branch[i] = int32(branch)
 
 
-@called
+@kernel
 def hessian_many(lumen, points, out_g, out_branch, out_h):
     """Gap, branch and Hessian of points [n, 3], into [n], [n] and [n, 6]; see ``gap_jet``."""
     for i in range(len(points)):
@@ -343,7 +343,7 @@ def hessian_many(lumen, points, out_g, out_branch, out_h):
             out_h[i, c] = h[c]
 
 
-@called
+@kernel
 def jets_many(lumen, points, out_g, out_n, out_h):
     """The same with its gradient, shape [n, 3]."""
     for i in range(len(points)):

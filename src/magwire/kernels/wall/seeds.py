@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import sqrt
 
-from magwire.kernels._jit import called, kernel
+from magwire.kernels._jit import kernel
 from magwire.kernels.vectors import dot, norm
 
 # Columns of the samples: ball's centre and radius, arc parameter, branch.
@@ -26,7 +26,7 @@ def span(centre, reach, corner, cell, count):
     return low, high
 
 
-@called
+@kernel
 def deepest(samples, corner, cell, shape, slack, best, near):
     """Largest R - |x - c| of the samples at each voxel's centre, and which voxels are near.
 
@@ -62,7 +62,7 @@ def deepest(samples, corner, cell, shape, slack, best, near):
                         near[index] = 1
 
 
-@called
+@kernel
 def ridges(samples, corner, cell, shape, slack, blend, best, near, state, out):
     """Samples that may lead to the largest gap somewhere in a voxel.
 
@@ -124,7 +124,7 @@ def least(best, near, radius, slack, blend):
     return min(value, -radius - slack - rough) if near == 2 else value
 
 
-@called
+@kernel
 def valleys(places, corner, cell, shape, slack, blend, best, near, state, out):
     """Seeds on both sides of each valley that R - |x - c| may have somewhere in a voxel.
 
@@ -257,7 +257,7 @@ def emit(index, sample, out, count):
     return count + 1
 
 
-@called
+@kernel
 def spread(away, shape):
     """How many voxels each voxel is from the nearest that holds a zero, diagonals counting one.
 

@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 from numpy.typing import NDArray
 
-from magwire.kernels._jit import called, kernel
+from magwire.kernels._jit import kernel
 from magwire.kernels.lanes import first, fourth, load, second, third
 from magwire.kernels.vectors import combine, dot
 
@@ -275,7 +275,7 @@ def sheet_jet(sheet, x, y, z):
     return g, safe, combine(1.0, n, 3.0 * past * past, m), h
 
 
-@called
+@kernel
 def splines(values, rows, places, out):
     """Value of the splines of some bricks at points of them.
 
@@ -298,7 +298,7 @@ def splines(values, rows, places, out):
         out[m] = spline_value(values[rows[m]], (i * WIDE + j) * WIDE + k, t)
 
 
-@called
+@kernel
 def steepest(values, finer, mouth, mouths, least):
     """Largest slope of the splines, looked for at the corners and in the middle of each cell.
 
