@@ -58,10 +58,12 @@ def info(
 
 def made(run: RunInfo, **values: ArrayLike) -> Record:
     """A record of these numbers; those that are left out are zero."""
-    kind = row_type(run.nodes, len(run.inputs))
+    kind = row_type(run.nodes, len(run.inputs), run.absent)
     row = np.zeros(kind.itemsize // 8)
     row.view(kind)["tip_departure"] = np.nan
     for name, value in values.items():
+        if name in run.absent:
+            continue
         row.view(kind)[name][0] = value
     return Record(row, kind)
 

@@ -397,6 +397,7 @@ class Simulation:
             inputs=self.system.input_names,
             resistances=self.system.resistances,
             wall_motion=self.system.wall_motion,
+            absent=self.system.absent,
         )
         sheet = self.system.lumen.sheet
         if sheet is None:

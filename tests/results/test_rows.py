@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 
 import magwire as mw
 from magwire.engine import plant as engine
+from magwire.engine.record import BLOCKS, MAY_BE_ABSENT
+from magwire.errors import ResultError
 from magwire.results import Result, Writer, disk, writer
 from magwire.results.contract import derive, layout_of
 from magwire.results.rows import Held, Rows
@@ -61,7 +65,7 @@ def test_a_record_is_one_call_and_one_piece_of_memory(monkeypatch: pytest.Monkey
         calls.clear()
         first = session.record()
         assert len(calls) == 1
-        assert all(np.shares_memory(getattr(first, n), first.row) for n in ("position", "slip"))
+        assert all(np.shares_memory(getattr(first, n), first.row) for n in ("position", "inputs"))
         kept = first.row.copy()
         session.step(feed_speed=1e-3, duration=0.05)
         later = session.record()
@@ -92,3 +96,84 @@ def test_many_records_between_two_flushes_are_one_draft(
     made.close("complete")
     assert len(opened) == 1
     assert Result.load(tmp_path / "result.nc").time.size == 60
+
+
+@pytest.mark.parametrize(
+    ("made", "absent"),
+    [
+        ({}, set(MAY_BE_ABSENT)),
+        ({"friction": mw.Friction(0.1)}, {"wall_indentation", "wall_displacement"}),
+        ({"friction": mw.Friction(0.0)}, set(MAY_BE_ABSENT)),
+        (
+            {"contact": mw.Barrier(foundation=1e8)},
+            {"friction_force", "slip", "wall_displacement"},
+        ),
+        (
+            {"wall_motion": mw.WallMotion((0.0, 0.0, 1e-3), period=1.0, ramp=10e-3)},
+            {"friction_force", "slip", "wall_indentation"},
+        ),
+    ],
+)
+def test_what_nothing_makes_is_absent_and_reads_as_zeros(
+    made: dict[str, object], absent: set[str], tmp_path: Path
+) -> None:
+    wire = mw.Wire.uniform(
+        length=0.1, radius=0.6e-3, youngs_modulus=3e6, shear_modulus=1e6, density=2000.0, nodes=20
+    )
+    lumen = mw.Lumen.half_circle(centreline_radius=0.025, radius=3e-3)
+    simulation = mw.Simulation(wire, lumen, **made)  # type: ignore[arg-type]
+    assert simulation.info().absent == absent
+    with simulation.session(feed=0.05, record_every=1e-3, out=tmp_path / "result.nc") as session:
+        session.step(feed_speed=1e-2, duration=0.5)
+        record = session.record()
+    assert set(record.kind.names or ()) & set(BLOCKS) == set(BLOCKS) - absent
+    result = Result.load(tmp_path / "result.nc")
+    for name in MAY_BE_ABSENT:
+        kept = getattr(result, name)
+        assert getattr(record, name).shape == kept.shape[1:]
+        assert np.any(kept) == (name not in absent), name
+    with h5py.File(tmp_path / "result.nc") as file:
+        stored = {name for name in MAY_BE_ABSENT if file[name].id.get_storage_size()}
+    assert stored == set(MAY_BE_ABSENT) - absent
+
+
+def test_rows_without_absent_arrays_are_those_with_them_less_the_zeros(tmp_path: Path) -> None:
+    run = info()
+    lean = replace(run, absent=frozenset(MAY_BE_ABSENT))
+    results = []
+    for kind, path in ((run, None), (lean, None), (lean, tmp_path / "lean.nc")):
+        writing = Writer(kind, path)
+        for record in records(kind, 40):
+            writing.append(record)
+        writing.close("complete")
+        results.append(writing.result())
+    for other in results[1:]:
+        assert list(other.dataset.variables) == list(results[0].dataset.variables)
+        for name, variable in results[0].dataset.variables.items():
+            there = 0.0 * variable if name in MAY_BE_ABSENT else variable
+            np.testing.assert_array_equal(other.dataset[name], there, err_msg=str(name))
+
+
+@pytest.mark.parametrize(
+    ("name", "length"), [("slip", 10**9), ("friction_force", 10**9), ("clearance", 40)]
+)
+def test_only_what_may_be_absent_is_taken_for_zeros(name: str, length: int, tmp_path: Path) -> None:
+    path = tmp_path / "result.nc"
+    lean = replace(info(), absent=frozenset(MAY_BE_ABSENT))
+    with Writer(lean, path) as writing:
+        for record in records(lean, 40):
+            writing.append(record)
+    with h5py.File(path, "r+") as file:
+        if name in MAY_BE_ABSENT:
+            file[name].resize(length, axis=0)
+        else:
+            shape, dims = file[name].shape, file[name].dims
+            scales = [dim[0] for dim in dims]
+            del file[name]
+            empty = file.create_dataset(
+                name, shape, float, maxshape=(None, *shape[1:]), chunks=True
+            )
+            for dim, scale in zip(empty.dims, scales, strict=True):
+                dim.attach_scale(scale)
+    with pytest.raises(ResultError, match=f"is damaged: {name} claims"):
+        Result.load(path)

@@ -18,7 +18,7 @@ from magwire.engine.rubbing import Rubbing
 from magwire.engine.sampling import SAMPLINGS, mismatch, sample, unsampled_stiffness
 from magwire.engine.status import Status
 from magwire.engine.system import System
-from magwire.field import FieldSource
+from magwire.field import FieldSource, UniformField
 from magwire.kernels.arrays import Field, Mouth, State, Tube
 from magwire.kernels.body import (
     Body,
@@ -131,7 +131,7 @@ class Plant:
         self.model = (system.rod, self.field, self._wall, lumen)
         limits, path = system.step_limits(), system.path_arrays._replace(moving=moving)
         self._tolerance = limits.tolerance
-        self._kind = row_type(system.wire.nodes, len(self.inputs))
+        self._kind = row_type(system.wire.nodes, len(self.inputs), system.absent)
         self._row = np.zeros(self._kind.itemsize // 8)
         self._row[SMALLEST_CLEARANCE], self._row[TIP_DEPARTURE] = math.inf, math.nan
         self._sheet = sheet_of(self._row, self._kind)
@@ -361,7 +361,10 @@ class Plant:
         system, scales, sheet = self.system, self.system.scales, self._sheet
         survey(self._body, scales.length, scales.force)
         numbers, tip, flux = sheet.numbers, sheet.position[-1:], sheet.flux_density
-        flux += self.source.at(tip)[0][0]
+        if isinstance(self.source, UniformField):  # at every record, without a call
+            flux += self.source.flux_density
+        else:
+            flux += self.source.at(tip)[0][0]
         if math.isnan(numbers[TIP_OFFSET]):
             numbers[TIP_OFFSET] = float(system.path.offset(tip)[0])
         numbers[TIME] = self.time

@@ -31,6 +31,8 @@ BLOCKS: dict[str, tuple[str, ...]] = {
     "material_director": ("node", "xyz"),
 }
 """Arrays of a record, as ``Sheet`` has them after its numbers, and their dimensions."""
+MAY_BE_ABSENT = ("friction_force", "slip", "wall_indentation", "wall_displacement")
+"""Arrays that are zero throughout, and not kept, where nothing in a run makes them."""
 TOTALS = slice(MAX_TIP_FORCE, len(NUMBERS))
 PATCH = 5e-3  # length of wire over which forces are summed or averaged [m]
 EDGES = 2.0  # edges in a patch at least: forces are not known any finer
@@ -90,6 +92,8 @@ class RunInfo:
         a wall of balls.
     wall_motion
         How the wall moves.
+    absent
+        Arrays that the records are without, by name; see ``row_type``.
     """
 
     nodes: int
@@ -110,6 +114,7 @@ class RunInfo:
         np.zeros((0, 3), dtype=np.int64),
     )
     wall_motion: tuple[WallMotion, ...] = ()
+    absent: frozenset[str] = frozenset()
 
 
 class Totals(NamedTuple):
@@ -141,17 +146,33 @@ class Totals(NamedTuple):
 
 
 @cache
-def row_type(nodes: int, inputs: int) -> np.dtype[Any]:
-    """Where the numbers of a record are in its row: single ones, then arrays, by name."""
+def row_type(nodes: int, inputs: int, absent: frozenset[str] = frozenset()) -> np.dtype[Any]:
+    """Where the numbers of a record are in its row: single ones, then arrays, by name.
+
+    With all of ``MAY_BE_ABSENT`` it is nearly twice as long as without.
+    """
     sizes = {"xyz": 3, "input": inputs, "node": nodes}
-    blocks = [(name, float, tuple(sizes[d] for d in dims)) for name, dims in BLOCKS.items()]
+    blocks = [
+        (name, float, tuple(sizes[d] for d in dims))
+        for name, dims in BLOCKS.items()
+        if name not in absent
+    ]
     return np.dtype([(name, float) for name in NUMBERS] + blocks)
+
+
+def block(rows: NDArray[Any], name: str) -> Array:
+    """An array of some records, in order; zeros for an absent one."""
+    if name in (rows.dtype.names or ()):
+        found: Array = rows[name]
+        return found
+    of_nodes = rows["material_director" if "xyz" in BLOCKS[name] else "clearance"].shape
+    return np.zeros(of_nodes)
 
 
 def sheet_of(row: Array, kind: np.dtype[Any]) -> Sheet:
     """A row, shape (size,), as kernels write to it."""
     blocks = row.view(kind)
-    return Sheet(row[: len(NUMBERS)], *(blocks[name][0] for name in BLOCKS))
+    return Sheet(row[: len(NUMBERS)], *(block(blocks, name)[0] for name in BLOCKS))
 
 
 class _Number:
@@ -167,7 +188,7 @@ class _Number:
 
 
 class _Block:
-    """An array of a record: a view of its row, made when it is asked for."""
+    """An array of a record: a view of its row, made when it is asked for, or zeros."""
 
     def __set_name__(self, owner: type, name: str) -> None:
         self._name = name
@@ -175,7 +196,7 @@ class _Block:
     def __get__(self, record: Record | None, owner: type) -> Array:
         if record is None:  # asked of the class
             return self  # type: ignore[return-value]
-        found: Array = record.row.view(record.kind)[self._name][0]
+        found: Array = block(record.row.view(record.kind), self._name)[0]
         return found
 
 

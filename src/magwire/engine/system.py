@@ -326,6 +326,18 @@ class System:
         """Stiffness and activation gap of the wall's barrier [Pa, m]."""
         return fit(self.contact, self.wire, self.path)
 
+    @property
+    def absent(self) -> frozenset[str]:
+        """Arrays that records are without: zero throughout, for want of what makes them."""
+        rubs = self.friction is not None and self.rubs
+        made = {
+            "friction_force": rubs,
+            "slip": rubs,
+            "wall_indentation": self.contact.foundation is not None,
+            "wall_displacement": bool(self.wall_motion),
+        }
+        return frozenset(name for name, there in made.items() if not there)
+
     @cached_property
     def patch(self) -> float:
         """Length of wire over which forces are summed [m]."""

@@ -48,7 +48,7 @@ class Variable:
     read: Callable[[Record, RunInfo], Any] | None = None
     dtype: np.dtype[Any] = FLOAT
     extra: tuple[tuple[str, Any], ...] = ()
-    column: Callable[[NDArray[Any], RunInfo], NDArray[Any]] | None = None
+    column: Callable[[Columns, RunInfo], NDArray[Any]] | None = None
 
 
 @dataclass(frozen=True)

@@ -119,13 +119,14 @@ class Draft:
         import h5py
 
         self._path, self._copy = path, draft_of(path)
-        self._sets: dict[str, Any] = {}
         with ExitStack() as stack:
             stack.callback(self._copy.unlink, missing_ok=True)
             shutil.copyfile(path, self._copy)
             raw = stack.enter_context(self._copy.open("r+b", buffering=0))
             self._sink = Sink(cast("IO[bytes]", raw))
             self._file = stack.enter_context(h5py.File(self._sink, "r+", rdcc_nbytes=CHUNK_CACHE))
+            growing = {n: s for n, s in self._file.items() if s.maxshape[:1] == (None,)}
+            self._sets = {name: held.id for name, held in growing.items()}
             self._ending = stack.pop_all()
 
     def read(self, name: str, count: int) -> Any:
@@ -133,15 +134,18 @@ class Draft:
         return self._file[name][:count]
 
     def add(self, first: int, columns: Mapping[str, NDArray[Any]]) -> None:
-        """Put rows of variables behind the first ones, and forget what was there before."""
+        """Put rows of variables behind the first ones, and forget what was there before.
+
+        Variables that get none are made as long: HDF5 reads what was never written as their fill
+        value, and keeps no room for it.
+        """
         from h5py import h5s
 
-        for name, values in columns.items():
-            if name not in self._sets:
-                self._sets[name] = self._file[name].id
-            held = self._sets[name]
-            held.set_extent((first + len(values), *values.shape[1:]))
-            if len(values):
+        count = first + len(columns["time"])
+        for name, held in self._sets.items():
+            held.set_extent((count, *held.shape[1:]))
+            values = columns.get(name)
+            if values is not None and len(values):
                 space = held.get_space()
                 space.select_hyperslab((first,) + (0,) * (values.ndim - 1), values.shape)
                 held.write(h5s.create_simple(values.shape), space, np.ascontiguousarray(values))

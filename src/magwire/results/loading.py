@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from magwire.engine.record import MAY_BE_ABSENT
 from magwire.errors import ResultError
 from magwire.pieces import Plain
 from magwire.results import plain
@@ -106,15 +107,24 @@ def _damage(file: Any) -> str:
         held = file[name]
         if name in KNOWN:
             stored = held.id.get_storage_size() * (1 if held.compression is None else PACKED)
-            if held.size * held.dtype.itemsize > stored:
+            if held.size * held.dtype.itemsize > stored and not _absent(name, held, file):
                 return f"is damaged: {name} claims {held.size} numbers, more than are stored"
     return ""
+
+
+def _absent(name: str, held: Any, file: Any) -> bool:
+    """Whether a variable has no numbers on purpose; without them it reads as zeros."""
+    like = file["position"].shape[: held.ndim]
+    never_written = held.fillvalue == 0 and not held.id.get_storage_size()
+    return name in MAY_BE_ABSENT and never_written and held.shape == like
 
 
 def _gap(file: Any, size: int) -> str:
     """What of a file's numbers is not in it, found without reading them; "" if all are."""
     for name in file:
         held, chunks, end = file[name], 0, 0
+        if _absent(name, held, file):
+            continue
 
         def look(chunk: Any) -> None:
             nonlocal chunks, end

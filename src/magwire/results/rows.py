@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.engine.record import Record, RunInfo, row_type
-from magwire.kernels.sheet import TIME
+from magwire.engine.record import BLOCKS, Record, RunInfo, block, row_type
+from magwire.kernels.sheet import NUMBERS, TIME
 from magwire.results.contract import VARIABLES, Variable
 
 
@@ -25,7 +26,7 @@ class Rows:
 
     def __init__(self, info: RunInfo, memory: int) -> None:
         self._info = info
-        self._kind = row_type(info.nodes, len(info.inputs))
+        self._kind = row_type(info.nodes, len(info.inputs), info.absent)
         room = max(1, memory // self._kind.itemsize)
         self._numbers = np.empty((room, self._kind.itemsize // 8))
         self._count = 0
@@ -52,10 +53,14 @@ class Rows:
         self._count = count
 
     def columns(self) -> dict[str, NDArray[Any]]:
-        """The variables, each with time as its first axis: in part views of this memory."""
+        """The variables, each with time as its first axis: in part views of this memory.
+
+        Those that the records are without are left out.
+        """
         return {
             name: self._column(name, variable).astype(variable.dtype, copy=False)
             for name, variable in VARIABLES.items()
+            if name not in self._info.absent
         }
 
     def _column(self, name: str, variable: Variable) -> NDArray[Any]:
@@ -64,7 +69,25 @@ class Rows:
             records = (Record(row, self._kind) for row in numbers)
             return np.array([variable.read(record, self._info) for record in records])
         rows = numbers.view(self._kind)[:, 0]
-        return rows[name] if variable.column is None else variable.column(rows, self._info)
+        if variable.column is None:
+            return block(rows, name)
+        return np.asarray(variable.column(Named(rows), self._info))
+
+
+class Named(Mapping[str, NDArray[Any]]):
+    """The numbers of many records by the names of ``Record``, each with time as its first axis."""
+
+    def __init__(self, rows: NDArray[Any]) -> None:
+        self._rows = rows
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        return block(self._rows, name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter((*NUMBERS, *BLOCKS))
+
+    def __len__(self) -> int:
+        return len(NUMBERS) + len(BLOCKS)
 
 
 class Held:

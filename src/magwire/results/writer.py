@@ -46,8 +46,11 @@ FLUSH_SECONDS = 2.0
 FLUSH_SHARE = 0.03
 """Share of the wall time that flushing may take: flushes of a very large file come less often."""
 CHUNK_BYTES = 2**16
-MOST_WAITING = 2**22
-"""Memory of the records that wait for a flush, and of the first ones without a file [bytes]."""
+MOST_WAITING = 2**23
+"""Memory of the records that wait for a flush, and of the first ones without a file [bytes].
+
+From 4 MB on numpy asks for large pages: to touch new memory costs a tenth.
+"""
 SAME = 1e-9
 """Times that differ by less are the same [s]."""
 
@@ -212,14 +215,20 @@ class Writer:
         """What has been recorded in memory."""
         data: dict[str, Column] = {}
         self._hold()
-        for name, column in self._kept.columns().items():
-            variable = (VARIABLES | DERIVED)[name]
+        columns = self._kept.columns()
+        for name, variable in self._growing().items():
+            shape = (self._written, *(self.sizes[dim] for dim in variable.dims[1:]))
+            column = np.zeros(shape) if name in self.info.absent else columns.pop(name)
             notes = {"units": variable.units, "long_name": variable.long_name}
             data[name] = Column(variable.dims, column, notes | dict(variable.extra))
         for name, constant in self._constants().items():
             notes = {"units": constant.units, "long_name": constant.long_name}
             data[name] = Column(constant.dims, self._constant(constant), notes)
         return Plain(data, self._attributes)
+
+    def _growing(self) -> dict[str, Variable | Derived]:
+        """The variables that grow with time."""
+        return {name: v for name, v in (VARIABLES | DERIVED).items() if self._exists(v)}
 
     def _constants(self) -> dict[str, Constant]:
         """The variables without time; a run in open space has none."""
@@ -292,12 +301,12 @@ class Writer:
         file.dimensions = {"time": None, **lengths}
         for name, value in self._attributes.items():
             file.attrs[name] = value
-        growing = {n: v for n, v in (VARIABLES | DERIVED).items() if self._exists(v)}
-        for name, variable in growing.items():
+        for name, variable in self._growing().items():
             shape = tuple(lengths[dim] for dim in variable.dims[1:])
             rows = max(1, CHUNK_BYTES // (variable.dtype.itemsize * int(np.prod(shape))))
-            # What is missing is NaN, not zero; coordinates have no fill value.
-            fill = np.nan if variable.dtype == FLOAT and name != "time" else None
+            # What is missing is NaN, what is absent is zero; coordinates have no fill value.
+            zero = name == "time" or name in self.info.absent
+            fill = np.nan if variable.dtype == FLOAT and not zero else None
             made = file.create_variable(
                 name, variable.dims, variable.dtype, chunks=(rows, *shape), fillvalue=fill
             )
