@@ -293,3 +293,14 @@ def test_unwritable_file_is_refused(tmp_path: Path) -> None:
     (tmp_path / "result.nc").mkdir()
     with pytest.raises(ResultError, match=r"cannot be written"):
         Writer(info(), tmp_path / "result.nc")
+
+
+@pytest.mark.parametrize(("strength", "said"), [(11.9, False), (12.1, True)])
+def test_a_field_that_no_magnet_makes_is_told(strength: float, said: bool) -> None:
+    run = info()
+    with Writer(run) as writer:
+        for record in records(run, 5):
+            record.flux_density[:] = (0.0, strength, 0.0)
+            writer.append(record)
+    text = "\n".join(lines(writer.result(), steered=True))
+    assert ("set navigate.max_field" in text) == said

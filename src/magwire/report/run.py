@@ -21,6 +21,9 @@ TURNED = 1e-3
 """Twist of the guide from which on a wire counts as turned [rad]."""
 MOST = 4
 """Inputs of which the largest value is shown."""
+STRONGEST = 12.0
+"""Flux density that no magnet around a patient goes beyond, MRI scanners neither [T]."""
+NO_MAGNET = "; no magnet around a patient makes that: set navigate.max_field"
 TORQUE = 1e-5
 """Torque at the guide, over EI/L, that is worth a word: round-off turns a wire in a plane, too."""
 
@@ -207,7 +210,8 @@ def _steering(result: Result) -> dict[str, str]:
     rows = {
         "largest tip offset": _short(result.largest_tip_offset),
         "peak field": show(result.peak_field, "flux_density")
-        + ("" if np.isnan(scale) else f", normalised {result.peak_field / scale:.4g}"),
+        + ("" if np.isnan(scale) else f", normalised {result.peak_field / scale:.4g}")
+        + (NO_MAGNET if result.peak_field > STRONGEST else ""),
     }
     rows |= _driving(result)
     if not np.isnan(result.largest_tip_departure):

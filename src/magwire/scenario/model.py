@@ -37,7 +37,8 @@ class Scenario(Table):
     """
 
     notes: ClassVar[tuple[str, ...]] = ()
-    """What was done to the vessel's file that it was read from, a sentence each."""
+    """What was done to the vessel's file that it was read from, and which values are unlikely; a
+    sentence each."""
 
     title: str = ""
     description: str = ""

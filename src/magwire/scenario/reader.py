@@ -18,6 +18,7 @@ from magwire.scenario.kind import FAMILIES
 from magwire.scenario.model import Scenario
 from magwire.scenario.overrides import apply
 from magwire.scenario.partial import partial_scenario
+from magwire.scenario.unlikely import unlikely
 
 
 def names() -> tuple[str, ...]:
@@ -85,7 +86,8 @@ def parse(
             unread.update(missing, [(name,)] if raw[name] is None else [])
             if reach is not None:
                 _feed_to(raw, reach)
-    return _validate(raw, faults, unread).with_notes(notes)
+    scenario = _validate(raw, faults, unread)
+    return scenario.with_notes(notes + unlikely(scenario))
 
 
 def _feed_to(raw: dict[str, Any], reach: str) -> None:
