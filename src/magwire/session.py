@@ -66,7 +66,7 @@ class Session:
         self._due, self._recorded = 0.0, -1.0
         self.assist: Assist | None = None
         self._length = plant.system.wire.length
-        self._one = Drive(np.zeros(1), np.zeros(1), plant.inputs[None], time_step, inertia)
+        self._inputs = plant.inputs
         self._record_if_due()
 
     def __enter__(self) -> Self:
@@ -126,7 +126,7 @@ class Session:
             for _ in range(parts):
                 self.advance((self._assisted(each),))
             return
-        plant, drive, dt = self.plant, self._one, self.time_step
+        plant, given, dt = self.plant, self._inputs, self.time_step
         try:
             feed = min(max(plant.feed + feed_speed * dt, 0.0), self._length)
             twist = plant.twist + twist_rate * dt
@@ -135,12 +135,12 @@ class Session:
             raise
         if inputs is None and self.assist is not None:
             inputs = self.assist.inputs(feed, feed_speed)
-        drive.inputs[0] = plant.state.inputs if inputs is None else inputs
-        if not math.isfinite(feed_speed + twist_rate + float(drive.inputs.sum())):
-            Command(feed_speed, twist_rate, drive.inputs[0])  # says which it is
-        drive.feed[0] = feed
-        drive.twist[0] = twist
-        self._do(drive)
+        given[:] = plant.state.inputs if inputs is None else inputs
+        if not math.isfinite(feed_speed + twist_rate + sum(given.tolist())):
+            Command(feed_speed, twist_rate, given)  # says which it is
+        if not plant.step(feed, twist, given, dt, inertia=self._inertia):
+            raise self._failed()
+        self._record_if_due()
 
     def advance(self, commands: Sequence[Command]) -> None:
         """Carry out commands one after the other, in as few calls of compiled code as can be.
@@ -206,7 +206,11 @@ class Session:
             done += plant.advance(drive.part(done, done + count))
             self._record_if_due()
         if done < whole:
-            raise ConvergenceError(plant.message, plant.state.q[1:, :3] * self._length)
+            raise self._failed()
+
+    def _failed(self) -> ConvergenceError:
+        plant = self.plant
+        return ConvergenceError(plant.message, plant.state.q[1:, :3] * self._length)
 
     def _record_if_due(self) -> None:
         if self._recording is None or self.plant.time < self._due * (1.0 - 1e-12):

@@ -70,6 +70,14 @@ def test_updates_count_equilibria(quick: tuple[str, dict[str, Any]]) -> None:
     assert not any(row["samples"][0]["stopped"] for row in results["updates"])
 
 
+def test_steps_from_python_lead_to_the_same_place(quick: tuple[str, dict[str, Any]]) -> None:
+    page, results = quick
+    rows = results["by_hand"]
+    assert [row["how"] for row in rows] == ["in one call", "one by one", "and observed"]
+    assert len({tuple(row["samples"][0]["tip"]) for row in rows}) == 1
+    assert "15  Steps given from Python" in page
+
+
 def test_page_of_the_documentation_is_made_of_its_samples(
     capsys: pytest.CaptureFixture[str],
 ) -> None:

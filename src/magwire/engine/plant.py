@@ -23,6 +23,7 @@ from magwire.kernels.arrays import Field, Mouth, State, Tube
 from magwire.kernels.body import (
     Body,
     Parts,
+    Queue,
     advance,
     look,
     make_body,
@@ -48,6 +49,9 @@ from magwire.kernels.sheet import (
 from magwire.kernels.sources.steer import steer
 
 Array = NDArray[np.float64]
+
+QUEUE = 256
+"""Steps that compiled code does in one call, at most."""
 
 DEEP = 0.8  # part of how deep a wall may be pressed in, from which on that may stop a step
 
@@ -135,8 +139,10 @@ class Plant:
         self._row = np.zeros(self._kind.itemsize // 8)
         self._row[SMALLEST_CLEARANCE], self._row[TIP_DEPARTURE] = math.inf, math.nan
         self._sheet = sheet_of(self._row, self._kind)
+        inputs = len(self.state.inputs)
+        self._queue = Queue(np.zeros(QUEUE), np.zeros(QUEUE), np.zeros((QUEUE, inputs)))
         known = self.model, path, system.guide, self.state, self.work, limits, self._tally
-        self._parts = Parts(*known, self._sheet)
+        self._parts = Parts(*known, self._queue, self._sheet)
         self._body = make_body(self._parts)
         self._patch = system.patch / system.wire.length
         self._turn = tuple(system.mesh.rest_turn[-1].tolist())
@@ -202,14 +208,43 @@ class Plant:
                 now, status = self._one(feed[one], twist[one], inputs[one], dt, drive.inertia)
                 done += now
         self.time += done * dt
-        self.status = Status(status)
-        self.message = ""
+        self._ended(status, drive.feed[done] if done < len(feed) else 0.0)
+        return done
+
+    def step(self, feed: float, twist: float, inputs: Array, dt: float, *, inertia: bool) -> bool:
+        """A single step, as ``advance`` does it, in less time; whether it converged.
+
+        Parameters
+        ----------
+        feed, twist
+            Of the guide at its end [m, rad].
+        inputs
+            Of the actuator at its end, shape (m,).
+        dt
+            Its length [s].
+        inertia
+            Without it the step is an equilibrium.
+        """
+        if not self.source.affine:
+            drive = Drive(np.array([feed]), np.array([twist]), inputs[None], dt, inertia)
+            return self.advance(drive) == 1
+        queue = self._queue
+        queue.feed[0], queue.twist[0] = feed / self.system.wire.length, twist
+        queue.inputs[0] = inputs
+        done, status = advance(self._body, 1, dt, self.system.damping, inertia)
+        self.time += done * dt
+        if status != CONVERGED or self.message:
+            self._ended(status, feed)
+        return bool(done)
+
+    def _ended(self, status: int, feed: float) -> None:
+        """Keep how the steps to a feed [m] ended."""
+        self.status, self.message = Status(status), ""
         if status != CONVERGED:
             self.message = (
-                f"The step to {float(drive.feed[done]) * 1e3:.4g} mm of feed did not "
+                f"The step to {feed * 1e3:.4g} mm of feed did not "
                 f"converge, even when cut into {2**RETRIES} parts: {self._remedy()}."
             )
-        return done
 
     def _remedy(self) -> str:
         """What to try after a step that failed."""
@@ -231,8 +266,16 @@ class Plant:
 
         The feed is in wire lengths; otherwise see ``Drive``.
         """
-        done, status = advance(self._body, feed, twist, inputs, dt, self.system.damping, inertia)
-        return int(done), int(status)
+        queue, whole, done, status = self._queue, len(feed), 0, CONVERGED
+        while True:
+            count = min(QUEUE, whole - done)
+            some = slice(done, done + count)
+            queue.feed[:count], queue.twist[:count] = feed[some], twist[some]
+            queue.inputs[:count] = inputs[some]
+            now, status = advance(self._body, count, dt, self.system.damping, inertia)
+            done += now
+            if done == whole or status != CONVERGED:
+                return done, status
 
     def _one(
         self, feed: Array, twist: Array, inputs: Array, dt: float, inertia: bool

@@ -13,7 +13,7 @@ from numba import types
 from numba.experimental import structref
 
 from magwire.kernels._jit import entry, kernel
-from magwire.kernels.arrays import Field, Guide, Motion, Mouth, Rod, State, Wall, Work
+from magwire.kernels.arrays import Array, Field, Guide, Motion, Mouth, Rod, State, Wall, Work
 from magwire.kernels.centreline import LumenArrays
 from magwire.kernels.glance import glance
 from magwire.kernels.guide import find_mouth, place_held
@@ -25,11 +25,19 @@ from magwire.kernels.wall.motion import move_wall
 from magwire.kernels.wall.traction import read_friction
 
 
+class Queue(NamedTuple):
+    """Where guide and inputs are at the ends of steps that wait: feed, twist [k]; inputs [k, m]."""
+
+    feed: Array
+    twist: Array
+    inputs: Array
+
+
 class Parts(NamedTuple):
     """What a moving wire is made of.
 
-    model: what its energy needs; path: the way to the target, as a single tube; sheet: where what
-    a record holds is written.
+    model: what its energy needs; path: the way to the target, as a single tube; queue: what is to
+    be done; sheet: where what a record holds is written.
     """
 
     model: tuple[Rod, Field, Wall, LumenArrays]
@@ -39,6 +47,7 @@ class Parts(NamedTuple):
     work: Work
     limits: Limits
     tally: Tally
+    queue: Queue
     sheet: Sheet
 
 
@@ -61,10 +70,14 @@ def make_body(parts):
 
 
 @entry
-def advance(body, feed, twist, inputs, time_step, damping, inertia):
-    """Time steps along a drive; steps done, and how the last one ended."""
+def advance(body, count, time_step, damping, inertia):
+    """The first steps of the queue; how many were done, and how the last one ended.
+
+    They are taken from the body: a call that hands over arrays costs as much as a short step.
+    """
     p = body.parts
-    drive = Drive(feed, twist, inputs, time_step, damping, inertia)
+    feed, twist, inputs = p.queue
+    drive = Drive(feed[:count], twist[:count], inputs[:count], time_step, damping, inertia)
     return march(p.model, p.guide, p.state, p.work, p.limits, drive, p.tally)
 
 

@@ -18,6 +18,7 @@ POINTS_NOTE = "Set-up: scenario, models, the lumen's grid; once in a run."
 FRICTION_NOTE = (
     "Ratio: a step with friction over one without. F*: force on the tip node, times L^2/EI."
 )
+BY_HAND_NOTE = "Other feed speed and inputs in every step. Ratio: over a step of a call of 1,000."
 TREE_NOTE = "With very few points to a branch the spline through them is another tube."
 
 
@@ -63,6 +64,25 @@ def by_friction(rows: Sequence[Row]) -> Table:
             *(f"{ratio:.2f}" for ratio in ratios),
             *counts(samples),
             f"{samples[0]['peak']:.2f}",
+        )
+    return made
+
+
+def by_hand(rows: Sequence[Row]) -> Table:
+    """Steps from Python next to those of one call."""
+    made = table(
+        "15  Steps given from Python: half-circle, N = 100, passive to 50 mm, dt = 10 ms",
+        *("steps", "us/step", "min", "ratio", "ratio\nof min"),
+    )
+    called = rows[0]["samples"]
+    for row in rows:
+        samples = row["samples"]
+        times = [pick(samples, "seconds") for pick in PICKS]
+        ratios = [spent / pick(called, "seconds") for spent, pick in zip(times, PICKS, strict=True)]
+        made.add_row(
+            row["how"],
+            *(f"{1e6 * spent / samples[0]['steps']:.1f}" for spent in times),
+            *(f"{ratio:.2f}" for ratio in ratios),
         )
     return made
 

@@ -28,7 +28,16 @@ def measure(
     """
     import numba
 
-    from magwire.evidence.bench import cases, driving, engines, learning, many, paper, updates
+    from magwire.evidence.bench import (
+        by_hand,
+        cases,
+        driving,
+        engines,
+        learning,
+        many,
+        paper,
+        updates,
+    )
     from magwire.evidence.bench.machine import load_average, machine
     from magwire.evidence.bench.starts import run_memory, run_starts
 
@@ -37,6 +46,7 @@ def measure(
     count, few = (1, 1) if quick else (repeats, min(repeats, 3))
     began, before = time.perf_counter(), load_average()
     results = cases.run_all(extent, count, tell)
+    results["by_hand"] = by_hand.run_by_hand(0.1 if quick else 0.5, count, tell)
     results["updates"] = updates.run_updates(
         UPDATES[1:2] if quick else UPDATES, 0.2 if quick else extent.push, few, tell
     )
