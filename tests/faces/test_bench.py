@@ -74,7 +74,8 @@ def test_steps_from_python_lead_to_the_same_place(quick: tuple[str, dict[str, An
     page, results = quick
     rows = results["by_hand"]
     assert [row["how"] for row in rows] == ["in one call", "one by one", "and observed"]
-    assert len({tuple(row["samples"][0]["tip"]) for row in rows}) == 1
+    tips = np.array([row["samples"][0]["tip"] for row in rows])
+    assert np.ptp(tips, axis=0).max() < 1e-12  # round-off of the feed, in metres
     assert "15  Steps given from Python" in page
 
 
