@@ -96,8 +96,8 @@ def _columns(head: dict[str, str]) -> list[str]:
 def _line(points: Array, head: dict[str, str]) -> Line:
     """A tube where it is: stretched by the spacing, turned by the matrix, moved by the offset.
 
-    So does ITK 5.4; the offset holds the centre of rotation already. Of a matrix that stretches,
-    the radius takes the mean.
+    So does ITK 5.4 with points; the offset holds the centre of rotation already. Of a matrix that
+    stretches, the radius takes the mean; ITK 5.4.7's own radius in world space shrinks by turning.
     """
     columns = _columns(head)
     spacing, offset = _numbers(head, "ElementSpacing", "1 1 1"), _numbers(head, "Offset", "0 0 0")
