@@ -121,6 +121,7 @@ class Between(NamedTuple):
     points' barrier; margin that they keep from the wall; known [N, parts, 4], jet [N, parts, JET]
     as in ``Wall``; clear [N, 7]: where an edge's nodes were, and how far they may move from there
     before one of its points may feel the wall. bulges: how sharply the wall bulges, by place.
+    waiting: scratch, points of an edge between which others are asked for.
     """
 
     parts: int
@@ -131,6 +132,7 @@ class Between(NamedTuple):
     jet: Array
     clear: Array
     bulges: Bulges | BulgeGrid
+    waiting: Array
 
 
 class Friction(NamedTuple):

@@ -10,8 +10,7 @@ from magwire.kernels.groups import smallest_of
 from magwire.kernels.lanes import splat, where
 from magwire.kernels.vectors import dot, norm, scale, sub
 from magwire.kernels.wall.foundation import at_node, deepest, response
-from magwire.kernels.wall.gap import gap_jet
-from magwire.kernels.wall.motion import pace
+from magwire.kernels.wall.gap import fall, gap_jet
 
 
 @kernel
@@ -36,7 +35,7 @@ def clear_of_wall(x, known, fast, reach):
 
     ``known`` remembers where the gap was last asked for and how far from there no wall is. It is
     asked before ``push``, since a call hands over the whole lumen, and most nodes need none. fast:
-    the wall's ``pace``, 1 if it does not move.
+    as of ``gap.fall``.
     """
     return fast * norm(sub(x, (known[0], known[1], known[2]))) + reach <= known[3]
 
@@ -78,7 +77,7 @@ def push(lumen, x, stiffness, gap, offset, known, jet, give):
 @kernel
 def press(rod, lumen, wall, x, i):
     """Barrier of the wall on node i at x; see ``push``."""
-    if clear_of_wall(x, wall.known[i], pace(lumen.moving), wall.gap + rod.offset[i]):
+    if clear_of_wall(x, wall.known[i], fall(lumen), wall.gap + rod.offset[i]):
         return inf, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     stiffness, give = wall.stiffness * rod.cell[i], at_node(wall.bed, i)
     return push(lumen, x, stiffness, wall.gap, rod.offset[i], wall.known[i], wall.jet[i], give)
@@ -87,7 +86,7 @@ def press(rod, lumen, wall, x, i):
 @kernel
 def press_tube(rod, tube, x):
     """Barrier of the virtual tube on the tip at x; see ``push`` (P-19)."""
-    if clear_of_wall(x, tube.known[0], pace(tube.path.moving), tube.gap + tube.offset):
+    if clear_of_wall(x, tube.known[0], fall(tube.path), tube.gap + tube.offset):
         return inf, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     stiffness = tube.stiffness * rod.cell[rod.cell.shape[0] - 1]
     return push(tube.path, x, stiffness, tube.gap, tube.offset, tube.known[0], tube.jet[0], ())
