@@ -209,7 +209,9 @@ def press_edge(rod, lumen, wall, state, j, gradient, band, r):
         offset = keep_off(rod, between, j, s)
         x = combine(1.0 - s, row(state.q, j), s, row(state.q, j + 1))
         known, jet = between.known[j, last], between.jet[j, last]
-        d, value, pushed, block = push(lumen, x, stiffness, between.gap, offset, known, jet, give)
+        d, value, pushed, block = push(
+            lumen, x, stiffness, between.gap, offset, known, jet, give, wall.easy
+        )
         if d < inf:
             nearest = min(nearest, d)
             energy += value
