@@ -384,6 +384,7 @@ class System:
             gap=self.firmness.activation_gap / length,
             known=np.full((self.wire.nodes + 1, 4), -np.inf),
             jet=np.zeros((self.wire.nodes + 1, JET)),
+            easy=np.zeros(1),
             between=between._replace(stiffness=between.stiffness / unit),
             tube=none if tube is None else tube,
             friction=self._new_friction(),

@@ -97,6 +97,7 @@ def divide_bed(firm: Firmness, edge: float, bulge: float, scale: float, edges: i
         jet=np.zeros((edges, parts, JET)),
         clear=np.full((edges, 7), -np.inf),
         bulges=UNKNOWN,
+        waiting=np.zeros(FINEST.bit_length() + 1, dtype=np.int64),
     )
 
 
@@ -120,6 +121,7 @@ def divide(firm: Firmness, edge: float, bulge: float, scale: float, edges: int) 
         jet=np.zeros((edges, parts, JET)),
         clear=np.full((edges, 7), -np.inf),
         bulges=UNKNOWN,
+        waiting=np.zeros(FINEST.bit_length() + 1, dtype=np.int64),
     )
 
 

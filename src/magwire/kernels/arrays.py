@@ -121,6 +121,7 @@ class Between(NamedTuple):
     points' barrier; margin that they keep from the wall; known [N, parts, 4], jet [N, parts, JET]
     as in ``Wall``; clear [N, 7]: where an edge's nodes were, and how far they may move from there
     before one of its points may feel the wall. bulges: how sharply the wall bulges, by place.
+    waiting: scratch, points of an edge between which others are asked for.
     """
 
     parts: int
@@ -131,6 +132,7 @@ class Between(NamedTuple):
     jet: Array
     clear: Array
     bulges: Bulges | BulgeGrid
+    waiting: Array
 
 
 class Friction(NamedTuple):
@@ -183,15 +185,17 @@ class Bed(NamedTuple):
 class Wall(NamedTuple):
     """Barrier stiffness and activation gap, and what is known of the gap near each node.
 
-    known [N+1, 4]: a point, and a distance by which one may move from there without crossing the
-    wall; nearer than that less the activation gap, no query is needed (P-8). jet [N+1, JET]: gap,
-    gradient and Hessian there, and arc parameter and branch of the ball that it is from.
+    known [N+1, 4]: a point, and by how much the gap may fall from there before the wall could be
+    crossed; nearer than that less the activation gap, no query is needed (P-8). jet [N+1, JET]:
+    gap, gradient and Hessian there, and arc parameter and branch of the ball that it is from. easy
+    [1]: whether Hessians are wanted of which Newton steps are made, see ``wall.eased``.
     """
 
     stiffness: float
     gap: float
     known: Array
     jet: Array
+    easy: Array
     between: Between
     tube: Tube
     friction: tuple[()] | tuple[Friction]

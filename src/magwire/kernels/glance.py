@@ -10,7 +10,7 @@ from magwire.kernels.lanes import clear_rows
 from magwire.kernels.vectors import combine, dot, norm, row, scale, sub
 from magwire.kernels.wall.contact import add_walls
 from magwire.kernels.wall.foundation import at_node, pressed_in
-from magwire.kernels.wall.motion import pace
+from magwire.kernels.wall.gap import fall
 from magwire.kernels.wall.push import asked_at, query
 
 GLANCE = 10
@@ -70,7 +70,7 @@ def largest_over(rod, gradient, held, patch):
 @part
 def least_clearance(rod, lumen, wall, state, held):
     """Smallest clearance of the free nodes; what is known to be farther is not asked for."""
-    least, fast = inf, pace(lumen.moving)
+    least, fast = inf, fall(lumen)
     for i in range(state.q.shape[0] - 1, held, -1):
         x = row(state.q, i)
         known = wall.known[i]

@@ -14,6 +14,7 @@ from magwire.kernels.history import copy_configuration
 from magwire.kernels.lanes import load, splat, store
 from magwire.kernels.vectors import combine, dot, norm, row, sub
 from magwire.kernels.wall.collision import allowed_between, allowed_part
+from magwire.kernels.wall.eased import EASED
 from magwire.kernels.wall.slide import slide
 
 CONVERGED = 0
@@ -251,10 +252,12 @@ def newton(model, state, mouth, motion, work, limits):
     energy, nearest, size = 0.0, inf, inf
     status = CONVERGED
     known = False  # whether gradient and band are those of a
+    easy = model[2].easy
     while status == CONVERGED and not size <= limits.tolerance:
         if iteration > 0 and iteration == limits.iterations:
             status = TOO_MANY_ITERATIONS
             break
+        easy[0] = 1.0 if iteration < EASED else 0.0
         if not known:
             value, near = assemble(model, a, mouth, motion, work.gradient, work.band)
         if iteration == 0:
@@ -286,5 +289,6 @@ def newton(model, state, mouth, motion, work, limits):
         small = min(limits.step, LAST * nearest)
         if share == 1.0 and size < inf and long < small:
             break
+    easy[0] = 0.0
     copy_configuration(a, state, held)
     return status, iteration, factorisations, size, nearest

@@ -38,7 +38,7 @@ from magwire.kernels.vectors import add, combine, cross, dot, norm, row, scale, 
 from magwire.kernels.wall.between import thick_at
 from magwire.kernels.wall.contact import add_walls
 from magwire.kernels.wall.foundation import at_edge, at_node, pressed_in
-from magwire.kernels.wall.gap import gap_jet, gap_value, slopes
+from magwire.kernels.wall.gap import fall, gap_jet, gap_value, slopes
 from magwire.kernels.wall.motion import at_rest, displacement_at, pace
 from magwire.kernels.wall.onward import hold_walls, positive
 from magwire.kernels.wall.traction import SLID
@@ -56,10 +56,9 @@ def hop(lumen, x, t, offset, least):
     Past an open end, and of a wall of triangles, there is no such ball: the gap changes by no more
     than the way times its slope.
     """
-    steep = slopes(lumen.sheet)[1]
-    if steep > 1.0:
+    if slopes(lumen.sheet)[1] > 1.0:
         g, _, _, _ = gap_value(lumen, x[0], x[1], x[2])
-        return (inf, 0.0) if g == inf else (g - offset, max(g - offset - least, 0.0) / steep)
+        return (inf, 0.0) if g == inf else (g - offset, max(g - offset - least, 0.0) / fall(lumen))
     g, _, _, safe, n, _ = gap_jet(lumen, x[0], x[1], x[2])
     if g == inf:
         return inf, 0.0
@@ -77,7 +76,7 @@ def hop(lumen, x, t, offset, least):
 def slope_along(rod, lumen, state, j):
     """Largest change of the clearance along edge j, per length of it."""
     widens = abs(rod.offset[j + 1] - rod.offset[j]) / state.length[j]
-    return pace(lumen.moving) * max(slopes(lumen.sheet)[1], 1.0) + widens, widens
+    return fall(lumen) + widens, widens
 
 
 @part
@@ -121,7 +120,7 @@ def nearest_in_bed(rod, lumen, wall, state, j, least):
 
     Between the points at which it is pressed the wall's indentation is linear along the edge.
     """
-    between, fast = wall.between, pace(lumen.moving)
+    between, fast = wall.between, fall(lumen)
     x, y = row(state.q, j), row(state.q, j + 1)
     widens = abs(rod.offset[j + 1] - rod.offset[j]) / state.length[j]
     part = state.length[j] / between.parts

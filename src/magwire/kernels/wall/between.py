@@ -16,8 +16,8 @@ from magwire.kernels.blocks import full, sym_scale
 from magwire.kernels.scatter import add_block, add_diagonal, add_vector
 from magwire.kernels.vectors import combine, dot, norm, row, sub
 from magwire.kernels.wall.foundation import at_edge
-from magwire.kernels.wall.motion import pace
-from magwire.kernels.wall.push import asked_at, clear_of_wall, push, query
+from magwire.kernels.wall.gap import fall
+from magwire.kernels.wall.push import asked_at, push, query
 
 CAREFUL = 2.0  # bulges are sampled: what a chord may lose is taken this many times as much
 
@@ -46,15 +46,12 @@ def clear_edge(between, q, j, reach):
 
 
 @kernel
-def slowed(movings, room, gap):
-    """How far an edge's nodes may move before the tissue at its points has come ``room`` nearer.
+def slowed(fast, room, gap):
+    """How far an edge's nodes may move before the gap at its points has fallen by ``room``.
 
     Also less the gap: see ``clear_edge``.
     """
-    if len(movings) == 0:
-        return room
-    else:
-        return (room + gap) / movings[0].pace - gap
+    return room if fast == 1.0 else (room + gap) / fast - gap
 
 
 @part
@@ -141,60 +138,80 @@ def sag(lumen, wall, q, j):
 
 
 @kernel
+def left_at(rod, between, q, j, k, fast):
+    """What is known to be left to the activation gap of point k of edge j.
+
+    Also by how much less that is than when it was asked for, and where the point is.
+    """
+    s = k / between.parts
+    x = combine(1.0 - s, row(q, j), s, row(q, j + 1))
+    known = between.known[j, k]
+    away = fast * norm(sub(x, (known[0], known[1], known[2])))
+    return known[3] - keep_off(rod, between, j, s) - between.gap - away, away, x
+
+
+@kernel
+def left_at_ends(rod, wall, j, sagitta):
+    """The same at the nodes of an edge whose ``sag`` is known, and was asked for last."""
+    between = wall.between
+    if sagitta < 0.0:
+        return -inf, -inf
+    low = wall.jet[j, 0] - keep_off(rod, between, j, 0.0) - between.gap
+    return low, wall.jet[j + 1, 0] - keep_off(rod, between, j, 1.0) - between.gap
+
+
+@kernel
+def least_within(low, high, sagitta, part):
+    """What is left at least in a part of an edge, from what is left at its ends; see ``sag``."""
+    return -inf if sagitta < 0.0 else dip(low, high, sagitta * part * part)
+
+
+@kernel
 def press_edge(rod, lumen, wall, state, j, gradient, band, r):
     """Barrier of the points of edge j; r is the band's row of its first node.
 
     Returns the smallest clearance, +inf where no point feels the wall, and the energy.
 
-    Points are asked for from both ends of the edge inward, until no point between the two that were
-    asked for last can feel the wall.
+    A part of the edge in which a point may feel the wall is halved, and the point in its middle
+    asked for. Points come in their order: sums must not hang on what was known.
     """
     between = wall.between
     energy = 0.0
     nearest = inf
     stiffness = between.stiffness * rod.rest[j] / between.parts
-    give, fast = at_edge(wall.bed, j), pace(lumen.moving)
+    give, fast = at_edge(wall.bed, j), fall(lumen)
     sagitta = sag(lumen, wall, state.q, j)
-    low, high = -inf, -inf  # what is left to the points' activation gap at the two ends
-    if sagitta >= 0.0:
-        low = wall.jet[j, 0] - keep_off(rod, between, j, 0.0) - between.gap
-        high = wall.jet[j + 1, 0] - keep_off(rod, between, j, 1.0) - between.gap
+    low, end = left_at_ends(rod, wall, j, sagitta)
     room = inf
-    first, last = 0, between.parts
-    while last - first > 1:
-        if sagitta >= 0.0:
-            part = (last - first) / between.parts
-            least = dip(low, high, sagitta * part * part)
-            if least >= 0.0:
-                room = min(room, least)
-                break
-        onward = low <= high
-        k = first + 1 if onward else last - 1
-        s = k / between.parts
+    first, waiting = 0, 1  # points that wait to be the last of a part
+    between.waiting[0] = between.parts
+    while waiting > 0:
+        last = between.waiting[waiting - 1]
+        high = end
+        if last < between.parts:
+            high, away, x = left_at(rod, between, state.q, j, last, fast)
+            if high < 0.0 and away > 0.0:
+                query(lumen, x, between.known[j, last], between.jet[j, last])
+                high, _, _ = left_at(rod, between, state.q, j, last, fast)
+            room = min(room, high)
+        if last - first > 1:
+            least = least_within(low, high, sagitta, (last - first) / between.parts)
+            if least < 0.0:
+                between.waiting[waiting] = (first + last) // 2
+                waiting += 1
+                continue
+            room = min(room, least)
+        waiting -= 1
+        first, low = last, high
+        if last == between.parts or high >= 0.0:
+            continue
+        s = last / between.parts
         offset = keep_off(rod, between, j, s)
         x = combine(1.0 - s, row(state.q, j), s, row(state.q, j + 1))
-        known = between.known[j, k]
-        left = known[3] - offset - between.gap
-        away = fast * norm(sub(x, (known[0], known[1], known[2])))
-        left -= away
-        if left < 0.0 and away > 0.0:
-            query(lumen, x, known, between.jet[j, k])
-            left = known[3] - offset - between.gap
-        room = min(room, left)
-        if onward:
-            first, low = k, left
-        else:
-            last, high = k, left
-    for k in range(1, between.parts):  # in their order: sums must not hang on what was known
-        if first < k < last:
-            continue
-        s = k / between.parts
-        offset = keep_off(rod, between, j, s)
-        x = combine(1.0 - s, row(state.q, j), s, row(state.q, j + 1))
-        known, jet = between.known[j, k], between.jet[j, k]
-        if clear_of_wall(x, known, fast, offset + between.gap):
-            continue
-        d, value, pushed, block = push(lumen, x, stiffness, between.gap, offset, known, jet, give)
+        known, jet = between.known[j, last], between.jet[j, last]
+        d, value, pushed, block = push(
+            lumen, x, stiffness, between.gap, offset, known, jet, give, wall.easy
+        )
         if d < inf:
             nearest = min(nearest, d)
             energy += value
@@ -204,7 +221,7 @@ def press_edge(rod, lumen, wall, state, j, gradient, band, r):
                 add_diagonal(band, r, sym_scale((1.0 - s) * (1.0 - s), block))
                 add_diagonal(band, r + 4, sym_scale(s * s, block))
                 add_block(band, r + 4, r, full(sym_scale(s * (1.0 - s), block)))
-    remember(between, state.q, j, slowed(lumen.moving, room, between.gap))
+    remember(between, state.q, j, slowed(fast, room, between.gap))
     return nearest, energy
 
 

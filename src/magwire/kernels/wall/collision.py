@@ -10,35 +10,37 @@ from magwire.kernels._jit import kernel, part, short
 from magwire.kernels.groups import group, numbers, places, rows
 from magwire.kernels.lanes import load, transposed
 from magwire.kernels.vectors import combine, norm, row
-from magwire.kernels.wall.between import clear_edge, keep_off
+from magwire.kernels.wall.between import (
+    clear_edge,
+    keep_off,
+    least_within,
+    left_at,
+    left_at_ends,
+    sag,
+)
 from magwire.kernels.wall.foundation import at_node, deepest
-from magwire.kernels.wall.gap import gap_value, slopes
-from magwire.kernels.wall.motion import pace
+from magwire.kernels.wall.gap import fall, gap_value, slopes
 from magwire.kernels.wall.push import all_clear, asked_at, clear_of_wall, query
 
 CAUTION = 0.9  # part of the safe distance that one hop uses
 CLOSEST = 0.1  # a step may shrink the clearance to this part of itself, not further
 HOPS = 200
-EXACTLY = 1.0 - 1e-9  # part of the gap, over its slope, that is taken for all of it
 
 
 @kernel
 def free_way(lumen, g, safe, offset):
-    """How far a point may move before what the wall keeps from it, ``offset``, is used up.
+    """By how much the gap may fall before what the wall keeps from a point, ``offset``, is used up.
 
     ``safe`` is for a point without one. Past an open end, where it is less than the gap, it may be
     less than the offset, too, of a point that is clear: there the slope of the gap says how far.
     """
-    steepest, steep = slopes(lumen.sheet)
-    if steep > 1.0 and safe * steep >= EXACTLY * g:
-        return (g - offset) / steep
-    return max(safe - offset, min((g - offset) / steepest, safe))
+    return max(safe - offset, min((g - offset) / slopes(lumen.sheet)[0], safe))
 
 
 @kernel
 def travel(lumen, x, dx, offset, known, jet, limit):
     """Largest part of the step dx, at most ``limit``, that a point x near the wall may take."""
-    length = pace(lumen.moving) * norm(dx)
+    length = fall(lumen) * norm(dx)
     if not asked_at(x, known):
         query(lumen, x, known, jet)
     start = free_way(lumen, jet[0], known[3], offset)
@@ -63,20 +65,38 @@ def edge_part(rod, lumen, wall, q, step, j, r, limit):
     r is the row of its first node.
     """
     between = wall.between
-    x, y = row(q, j), row(q, j + 1)
     dx, dy = (step[r], step[r + 1], step[r + 2]), (step[r + 4], step[r + 5], step[r + 6])
-    fast = pace(lumen.moving)
+    fast = fall(lumen)
     if clear_edge(between, q, j, limit * max(norm(dx), norm(dy)) / CAUTION - between.gap):
         return limit
     leeway = deepest(at_node(wall.bed, j))
-    for k in range(1, between.parts):
-        s = k / between.parts
-        offset = keep_off(rod, between, j, s) - leeway
-        here = combine(1.0 - s, x, s, y)
+    spare = between.gap + leeway  # what a point may use up besides what is left to its barrier
+    sagitta = sag(lumen, wall, q, j)
+    low, end = left_at_ends(rod, wall, j, sagitta)
+    first, waiting = 0, 1  # as in ``press_edge``
+    between.waiting[0] = between.parts
+    while waiting > 0:
+        last = between.waiting[waiting - 1]
+        s = last / between.parts
         move = combine(1.0 - s, dx, s, dy)
-        known = between.known[j, k]
-        if not clear_of_wall(here, known, fast, fast * limit * norm(move) / CAUTION + offset):
-            limit = travel(lumen, here, move, offset, known, between.jet[j, k], limit)
+        high, away, here = left_at(rod, between, q, j, last, fast)
+        if last == between.parts:
+            high = end
+        elif high + spare < fast * limit * norm(move) / CAUTION and away > 0.0:
+            query(lumen, here, between.known[j, last], between.jet[j, last])
+            high, _, _ = left_at(rod, between, q, j, last, fast)
+        if last - first > 1:
+            least = least_within(low, high, sagitta, (last - first) / between.parts)
+            if least + spare < fast * limit * max(norm(dx), norm(dy)) / CAUTION:
+                between.waiting[waiting] = (first + last) // 2
+                waiting += 1
+                continue
+        waiting -= 1
+        first, low = last, high
+        if last < between.parts and high + spare < fast * limit * norm(move) / CAUTION:
+            offset = keep_off(rod, between, j, s) - leeway
+            known, jet = between.known[j, last], between.jet[j, last]
+            limit = travel(lumen, here, move, offset, known, jet, limit)
     return limit
 
 
@@ -98,7 +118,7 @@ def allowed_part(rod, lumen, wall, q, step, held, leeway):
     that stayed inside cannot have gone through the wall of a tree on the way.
     leeway: how far into the wall the way may lead, of a step that is known to end inside.
     """
-    share, fast = 1.0, pace(lumen.moving)
+    share, fast = 1.0, fall(lumen)
     nodes = q.shape[0]
     lead = 4 * (held - 1)
     leeway += deepest(at_node(wall.bed, nodes - 1))

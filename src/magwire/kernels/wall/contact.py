@@ -9,7 +9,7 @@ from magwire.kernels.groups import group, numbers, places, rows
 from magwire.kernels.scatter import add_diagonal, add_vector
 from magwire.kernels.vectors import row
 from magwire.kernels.wall.between import add_between
-from magwire.kernels.wall.motion import pace
+from magwire.kernels.wall.gap import fall
 from magwire.kernels.wall.push import all_clear, press, press_tube
 
 
@@ -26,7 +26,7 @@ def add_walls(rod, lumen, wall, state, held, gradient, band):
     """
     energy = 0.0
     nearest = inf
-    tip, fast = state.q.shape[0] - 1, pace(lumen.moving)
+    tip, fast = state.q.shape[0] - 1, fall(lumen)
     for begin in range(held + 1, tip + 1, 4):
         g = group(begin, tip)
         reach = wall.gap + numbers(rod.offset, g)

@@ -31,7 +31,7 @@ from magwire.kernels.centreline import (
     climb,
 )
 from magwire.kernels.vectors import combine, dot, norm, scale, sub
-from magwire.kernels.wall.motion import at_rest, moved_jet
+from magwire.kernels.wall.motion import at_rest, moved_jet, pace
 from magwire.kernels.wall.rim import mouth, mouth_jet, safe_distance
 from magwire.kernels.wall.sheet import STEEPEST, sheet_jet, sheet_value
 
@@ -142,7 +142,9 @@ def balls_value(lumen, x, y, z):
         Arc parameter and branch of the ball it belongs to, S below 0 or above the branch's length
         past an end; nan and -1 in no voxel of the grid.
     safe
-        Distance by which the point may move without crossing the wall: g inside the lumen, also
+        By how much the gap may fall before the point could cross the wall; it falls by ``fall`` at
+        most for each length that the point moves. At balls, where it falls by one, it is the
+        distance by which the point may move without crossing the wall: g inside the lumen, also
         where branches blend; less past an open end, where the flared wall is steeper. From
         free space outside it the point may come to lie in the solid, but not through it. In a lumen
         that moves it is the way of the tissue that is at the point; see ``wall.motion.pace``.
@@ -315,11 +317,17 @@ def gap_jet(lumen, x, y, z):
 
 @kernel
 def slopes(sheets):
-    """Largest slope of the gap, past an open end and elsewhere."""
+    """Largest slope of the gap past an open end, over that elsewhere, and that."""
     if len(sheets) == 0:
         return BALLS_STEEPEST, 1.0
     else:
-        return STEEPEST * sheets[0].steep, sheets[0].steep
+        return STEEPEST, sheets[0].steep
+
+
+@kernel
+def fall(lumen):
+    """By how much the gap falls at most for each length that a point moves; see ``gap_value``."""
+    return pace(lumen.moving) * slopes(lumen.sheet)[1]
 
 
 @kernel

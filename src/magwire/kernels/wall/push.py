@@ -9,9 +9,9 @@ from magwire.kernels.blocks import sym_add, sym_outer, sym_scale
 from magwire.kernels.groups import smallest_of
 from magwire.kernels.lanes import splat, where
 from magwire.kernels.vectors import dot, norm, scale, sub
+from magwire.kernels.wall.eased import eased
 from magwire.kernels.wall.foundation import at_node, deepest, response
-from magwire.kernels.wall.gap import gap_jet
-from magwire.kernels.wall.motion import pace
+from magwire.kernels.wall.gap import fall, gap_jet
 
 
 @kernel
@@ -36,7 +36,7 @@ def clear_of_wall(x, known, fast, reach):
 
     ``known`` remembers where the gap was last asked for and how far from there no wall is. It is
     asked before ``push``, since a call hands over the whole lumen, and most nodes need none. fast:
-    the wall's ``pace``, 1 if it does not move.
+    as of ``gap.fall``.
     """
     return fast * norm(sub(x, (known[0], known[1], known[2]))) + reach <= known[3]
 
@@ -50,10 +50,10 @@ def all_clear(x, known, fast, reach):
 
 
 @kernel
-def push(lumen, x, stiffness, gap, offset, known, jet, give):
+def push(lumen, x, stiffness, gap, offset, known, jet, give, easy):
     """Barrier of a point near the wall (P-8, P-11), and what gives way behind it (P-39).
 
-    give: as of ``foundation.at_node``.
+    give: as of ``foundation.at_node``; easy: see ``Wall``.
 
     Returns
     -------
@@ -65,12 +65,12 @@ def push(lumen, x, stiffness, gap, offset, known, jet, give):
     if not asked_at(x, known):
         query(lumen, x, known, jet)
     d, n = jet[0] - offset, (jet[1], jet[2], jet[3])
-    h = (jet[4], jet[5], jet[6], jet[7], jet[8], jet[9])
     if d >= gap:
         return inf, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     if not d > -deepest(give):
         return 0.0, inf, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     d, value, first, curved = response(give, d, gap)
+    h = eased(lumen.sheet, n, (jet[4], jet[5], jet[6], jet[7], jet[8], jet[9]), easy)
     block = sym_add(sym_outer(stiffness * curved, n), sym_scale(stiffness * first, h))
     return d, stiffness * value, scale(stiffness * first, n), block
 
@@ -78,16 +78,18 @@ def push(lumen, x, stiffness, gap, offset, known, jet, give):
 @kernel
 def press(rod, lumen, wall, x, i):
     """Barrier of the wall on node i at x; see ``push``."""
-    if clear_of_wall(x, wall.known[i], pace(lumen.moving), wall.gap + rod.offset[i]):
+    if clear_of_wall(x, wall.known[i], fall(lumen), wall.gap + rod.offset[i]):
         return inf, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     stiffness, give = wall.stiffness * rod.cell[i], at_node(wall.bed, i)
-    return push(lumen, x, stiffness, wall.gap, rod.offset[i], wall.known[i], wall.jet[i], give)
+    known, jet, easy = wall.known[i], wall.jet[i], wall.easy
+    return push(lumen, x, stiffness, wall.gap, rod.offset[i], known, jet, give, easy)
 
 
 @kernel
 def press_tube(rod, tube, x):
     """Barrier of the virtual tube on the tip at x; see ``push`` (P-19)."""
-    if clear_of_wall(x, tube.known[0], pace(tube.path.moving), tube.gap + tube.offset):
+    if clear_of_wall(x, tube.known[0], fall(tube.path), tube.gap + tube.offset):
         return inf, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     stiffness = tube.stiffness * rod.cell[rod.cell.shape[0] - 1]
-    return push(tube.path, x, stiffness, tube.gap, tube.offset, tube.known[0], tube.jet[0], ())
+    known, jet = tube.known[0], tube.jet[0]
+    return push(tube.path, x, stiffness, tube.gap, tube.offset, known, jet, (), known)

@@ -220,26 +220,26 @@ def past_end(ends, end, x, y, z):
 
 @kernel
 def opened(sheet, g, axial, radius):
-    """The gap in a mouth past its plane, and how far a point there may move, from the wall's g."""
+    """The gap in a mouth past its plane, and what is left of it at least, from the wall's g."""
     past = axial / radius
     if past <= 1.0:
         wider = g + radius * past * past * past
-        return wider, max(g, wider / STEEPEST) / sheet.steep
+        return wider, max(g, wider / STEEPEST)
     onward = (g + radius * (3.0 * past - 2.0)) / STEEPEST
-    return inf, max(g, min(max(axial - radius, onward), sheet.margin)) / sheet.steep
+    return inf, max(g, min(max(axial - radius, onward), sheet.margin))
 
 
 @kernel
 def sheet_value(sheet, x, y, z):
-    """Gap of a point, and how far it may move without crossing the wall; as of ``gap_value``."""
+    """Gap of a point, and what ``gap_value`` calls safe."""
     row, base, t, _, end, away = find(sheet, x, y, z)
     if row < 0:
         return inf, away
     g = sheet.cell * spline_value(sheet.values[row], base, t)
     if end < 0:
-        return g, g / sheet.steep
+        return g, g
     axial, _, radius = past_end(sheet.ends, end, x, y, z)
-    return (g, g / sheet.steep) if axial <= 0.0 else opened(sheet, g, axial, radius)
+    return (g, g) if axial <= 0.0 else opened(sheet, g, axial, radius)
 
 
 @kernel
@@ -255,10 +255,10 @@ def sheet_jet(sheet, x, y, z):
     n = (finer * n[0], finer * n[1], finer * n[2])
     h = (curved * h[0], curved * h[1], curved * h[2], curved * h[3], curved * h[4], curved * h[5])
     if end < 0:
-        return g, g / sheet.steep, n, h
+        return g, g, n, h
     axial, m, radius = past_end(sheet.ends, end, x, y, z)
     if axial <= 0.0:
-        return g, g / sheet.steep, n, h
+        return g, g, n, h
     g, safe = opened(sheet, g, axial, radius)
     if g == inf:
         return inf, safe, none, flat

@@ -12,8 +12,7 @@ from magwire.kernels._jit import kernel
 from magwire.kernels.vectors import combine, norm, row
 from magwire.kernels.wall.between import clear_edge, keep_off
 from magwire.kernels.wall.foundation import at_edge, at_node, pressed_in
-from magwire.kernels.wall.gap import gap_jet
-from magwire.kernels.wall.motion import pace
+from magwire.kernels.wall.gap import fall, gap_jet
 from magwire.kernels.wall.push import asked_at, clear_of_wall, query
 
 KEPT = 0.5  # part of its clearance that a point keeps
@@ -54,7 +53,7 @@ def slide(rod, lumen, wall, q, step, held, part, way):
     lead = 4 * (held - 1)
     for r in range(4 * (nodes - held + 1)):
         way[r] = part * step[r]
-    fast = pace(lumen.moving)
+    fast = fall(lumen)
     for i in range(held + 1, nodes):
         r = 4 * i - lead
         x, dx = row(q, i), (way[r], way[r + 1], way[r + 2])
