@@ -293,7 +293,7 @@ def _travel(nothing: Prospect, course: _Course, demands: Demands) -> Prospect:
     if len(tried) < len(planned.feed):
         schedule = Schedule(planned.feed[tried], planned.field[tried])
         result = course.run(float(schedule.feed[-1]), Prescribed(schedule))
-    arc = np.array([course.replayed.tip_arc(position) for position in result.position])
+    arc = course.replayed.system.path.locate(result.position[:, -1])[0]
     flux = np.linalg.norm(result.field, axis=1)
     found = replace(
         nothing,

@@ -141,7 +141,8 @@ class PersistentNavigator:
             )
         schedule = self.navigator.plan(observation, until)
         knot = self.navigator.knot
-        self._trail = [step for step in self._trail if step[0].feed < knot.feed - CLOSE]
+        while self._trail and self._trail[-1][0].feed >= knot.feed - CLOSE:
+            self._trail.pop()
         self._trail.append((knot, schedule.at(knot.feed)[0]))
         self._last = schedule
         return schedule
