@@ -70,6 +70,7 @@ PLACES: tuple[tuple[Callable[..., object], Mapping[str, Any]], ...] = (
             "tip_clearance": 0.4,
             "stability_margin": 1.0,
             "field_tolerance": 0.05,
+            "gain_tolerance": 0.0,
             "max_field": 0.1,
             "max_field_rate": 1.0,
         },

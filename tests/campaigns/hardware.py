@@ -1,7 +1,7 @@
 """The paper's cases in a stated Helmholtz set, replayed through hardware with errors of all signs.
 
-``python -m campaigns.hardware MARGIN [CASE ...]`` prints, for a stability margin [1/s^2], what
-docs/lab.md has in its last table.
+``python -m campaigns.hardware MARGIN TOLERANCE [CASE ...]`` prints, for a stability margin [1/s^2]
+and a gain tolerance, what docs/lab.md has in its last table.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from magwire.scenario import inputs_of
 
 CASES = ("half-circle", "sinusoid", "helix", "left-branch", "middle-branch", "right-branch")
 CIRCUIT = Circuit(resistance=1.0, inductance=5e-3, supply=48.0)
+TIME_STEP = 0.02  # [s]
 RADII = {"x": 0.08, "y": 0.10, "z": 0.12}
 
 
@@ -32,9 +33,9 @@ def platform(way: np.ndarray) -> Helmholtz:
     )
 
 
-def main(margin: float, cases: tuple[str, ...]) -> None:
+def main(margin: float, tolerance: float, cases: tuple[str, ...]) -> None:
     """Plan and replay."""
-    demands = mw.Demands(stability_margin=margin)
+    demands = mw.Demands(stability_margin=margin, gain_tolerance=tolerance)
     steering = mw.Allocated(mw.TipNavigator(demands, update_every=1e-3), objective="field")
     for case in cases:
         job = mw.load_scenario(case).build()
@@ -45,19 +46,25 @@ def main(margin: float, cases: tuple[str, ...]) -> None:
             contact=system.contact,
             actuator=platform(system.path.centreline()[0]),
         )
-        plan = simulation.run(feed, steering, time_step=job.time_step)
-        peak = np.abs(plan.inputs).max()
-        print(f"{case}: {plan.status}, {peak:.1f} A, {1e3 * plan.peak_field:.1f} mT {plan.message}")
+        plan = simulation.run(feed, steering, time_step=TIME_STEP)
+        peak, power = np.abs(plan.inputs).max(), plan.power.max()
+        print(
+            f"{case}: {plan.status}, {peak:.1f} A, {power:.0f} W, {1e3 * plan.peak_field:.1f} mT "
+            f"{plan.message}",
+            flush=True,
+        )
         if plan.status != "complete":
             continue
         played = mw.Prescribed(inputs_of(plan))
         for signs in itertools.product((1.0, -1.0), repeat=3):
             errors = tuple(0.03 * sign for sign in signs)
             hardware = Hardware(quantum=0.01, delay=0.05, gain_errors=errors)
-            made = simulation.run(feed, played, time_step=job.time_step, hardware=hardware)
+            made = simulation.run(feed, played, time_step=TIME_STEP, hardware=hardware)
             clear = 1e3 * float(np.nanmin(made.clearance[:, -1]))
-            print(f"  {signs}: {made.max_tip_force:.3g} N, {clear:.2f} mm", flush=True)
+            print(
+                f"  {signs}: {made.status}, {made.max_tip_force:.3g} N, {clear:.2f} mm", flush=True
+            )
 
 
 if __name__ == "__main__":
-    main(float(sys.argv[1]), tuple(sys.argv[2:]) or CASES)
+    main(float(sys.argv[1]), float(sys.argv[2]), tuple(sys.argv[3:]) or CASES)

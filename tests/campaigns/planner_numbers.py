@@ -82,6 +82,8 @@ def main(names: list[str]) -> None:
     for group, cases in CASES.items():
         kept = getattr(tuned, group)
         for one in fields(kept):
+            if isinstance(getattr(kept, one.name), tuple):
+                continue
             name = f"{group}.{one.name}"
             if names and name not in names and group not in names:
                 continue

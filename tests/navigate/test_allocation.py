@@ -7,7 +7,8 @@ import pytest
 
 import magwire as mw
 from magwire.actuate import Circuit, Coil, Helmholtz, Input, Loops, Magnet, Pair, Pose
-from magwire.navigate.allocation import Allocated, allocate, binding
+from magwire.navigate.allocation import Allocated
+from magwire.navigate.least_cost import allocate, binding
 
 PLACE = np.array([0.004, -0.003, 0.002])
 

@@ -7,7 +7,7 @@ import pytest
 
 import magwire as mw
 from magwire.actuate import Hardware, Uniform
-from magwire.navigate.allocation import InputSchedule
+from magwire.navigate.inputs import InputSchedule
 
 from .test_allocation import half_circle, platform
 

@@ -336,7 +336,8 @@ FAULTS = (
         (*STABLE, "navigate.file=x.csv"),
         "Input navigate.file is not a key of [navigate] with method 'stable'; expected one of "
         "'method', 'update_every', 'friction', 'objective', 'plan_every', 'tip_clearance', "
-        "'stability_margin', 'field_tolerance', 'max_field', 'max_field_rate', 'attempts'.",
+        "'stability_margin', 'field_tolerance', 'gain_tolerance', 'max_field', 'max_field_rate', "
+        "'attempts'.",
     ),
     Fault(
         "clearance for nobody who steers",

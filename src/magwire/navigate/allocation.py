@@ -10,36 +10,32 @@ the field along it, which is what keeps it from buckling.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
-import daqp
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from magwire.actuate import Actuator, Input, Magnet
+from magwire.actuate import Magnet
 from magwire.engine.command import Drive
 from magwire.engine.plant import Plant, Snapshot
 from magwire.engine.point import Point
 from magwire.engine.sensitivity import derivative
 from magwire.engine.status import Status
 from magwire.engine.system import System
-from magwire.errors import InputError, array, one_of
+from magwire.errors import InputError, one_of
 from magwire.navigate.direct import Direct
 from magwire.navigate.inputs import InputSchedule
+from magwire.navigate.least_cost import FREE, LEAST, REACH, allocate, binding, cheapest, prices_of
 from magwire.navigate.model import across
 from magwire.navigate.navigator import NavigationError, Navigator, Observation, Steering
 from magwire.navigate.schedule import Schedule
+from magwire.navigate.shares import shares_of
 
 Array = NDArray[np.float64]
 Objective = Literal["power", "field"]
 
-ROUNDS = 200  # of linearisation, where the field is not linear in the inputs
-CLOSE = 1e-4  # of the wanted field, by which the made one may be off
 POINTS = 201  # of the path, from which a magnet keeps away
-REACH = 0.02  # longest step of a magnet's coordinate [m], and of its direction, in one round
-LEAST = 1e-3  # field that others are measured against [T]: less of it turns no tip by much
 CORRECTIONS = 6  # of the inputs at a knot
 CLOSE = 1e-9  # two feeds are the same [m]
 SLACK = 1.0 + 1e-6  # room for rounding in rates
@@ -50,8 +46,6 @@ ASTRAY = (
     "field: its gradient pulls, or the wire is about to buckle; ask for a larger stability_margin "
     "or tip_clearance, or use larger coils."
 )
-PARTS = (1.0, 0.3, 0.1, 0.03, 0.01)  # of the missing field that a round tries to make
-FREE = 1e30  # a bound that binds nothing, for the solver
 
 
 @dataclass(frozen=True)
@@ -131,6 +125,11 @@ class AllocatingNavigator:
         demands = getattr(planner, "demands", None)
         self._direct = None if demands is None else Direct(self._plant, demands, self._prices)
         self._every = float(getattr(planner, "plan_every", np.inf))
+        expect = getattr(planner, "expect", None)
+        if expect is not None and bool(self._currents.all()):
+            curve = system.path.branches[0].curve
+            middle = curve.at(np.array([0.5 * curve.length]))[0, :3]
+            expect(shares_of(system.actuator, middle))
 
     def plan(self, observation: Observation, until: float) -> InputSchedule:
         """The inputs from the observed feed to the feed ``until`` [m].
@@ -172,7 +171,8 @@ class AllocatingNavigator:
         before, self._needed = self._plant.snapshot(), None
         if tip is not None:
             there = self._follow(feed, found)
-            if not there or (np.any(flux) and not self._correct(tip, flux)):
+            done = there and (not np.any(flux) or self._correct(tip, flux))
+            if not done and not self._swung(feed, found, tip, flux):
                 return self._aside(feed, before, f"{at} {self._lacking() or ASTRAY}")
             found = self._plant.inputs
             if self._saves and self._direct is not None and np.any(flux):
@@ -183,6 +183,19 @@ class AllocatingNavigator:
         if isinstance(self._actuator, Magnet):
             self._keep_out(self._actuator, found, feed)
         return found
+
+    def _swung(self, feed: float, inputs: Array, tip: Array, flux: Array) -> bool:
+        """Take the wire to be as it is planned to be: it may have to swing to get there."""
+        expected = getattr(self.navigator, "expected", None)
+        planned = None if expected is None else expected(feed)
+        if planned is None:
+            return False
+        needed = self._needed
+        self._plant.restore(planned.with_inputs(inputs))
+        settled = self._plant.settle(self._system.step_limits())[0] is Status.CONVERGED
+        done = settled and self._correct(tip, flux)
+        self._needed = None if done else needed
+        return done
 
     def _lacking(self) -> str:
         """Which limit is in the way of the tip, as the end of a sentence; "" if none is known."""
@@ -290,7 +303,7 @@ class AllocatingNavigator:
         """Change the inputs at the least cost so that nothing is off; whether the wire follows."""
         plant, u = self._plant, self._plant.inputs
         near = np.where(self._currents, FREE, REACH)
-        change = _programme(
+        change = cheapest(
             self._prices,
             np.where(self._currents, u, 0.0),
             (rows, off),
@@ -298,7 +311,7 @@ class AllocatingNavigator:
         )
         if change is None:
             free = np.full(len(u), FREE)
-            wanted = _programme(
+            wanted = cheapest(
                 self._prices, np.where(self._currents, u, 0.0), (rows, off), (-free, free)
             )
             self._needed = None if wanted is None else u + wanted
@@ -361,127 +374,3 @@ class AllocatingNavigator:
         known = getattr(self.navigator, "expected_tip", None)
         tip: Array | None = None if known is None else known(feed)
         return tip
-
-
-def prices_of(inputs: Sequence[Input]) -> Array:
-    """What the square of each input costs: its resistance, or one where none is known."""
-    known = [one.resistance for one in inputs]
-    if not all(resistance > 0.0 for resistance in known):
-        return np.ones(len(known))
-    return np.array(known)
-
-
-def allocate(
-    actuator: Actuator, place: ArrayLike, flux: ArrayLike, start: ArrayLike | None = None
-) -> Array | None:
-    """Inputs that make a flux density at a place, within their limits, at the least cost.
-
-    The cost of a current is its power, or its square where no resistance is known; that of a
-    magnet's coordinate is how far it is moved.
-
-    Parameters
-    ----------
-    actuator
-        What makes the field.
-    place
-        Shape (3,) [m].
-    flux
-        Shape (3,) [T].
-    start
-        Inputs to start from, shape (m,); the idle ones if left out.
-
-    Returns
-    -------
-    array or None
-        Shape (m,); None if there are none.
-    """
-    where = array("allocate", "place", place, (3,), "m")[None]
-    wanted = array("allocate", "flux", flux, (3,), "T")
-    u = np.array(actuator.idle if start is None else start, dtype=np.float64)
-    low = np.array([one.low for one in actuator.inputs])
-    high = np.array([one.high for one in actuator.inputs])
-    currents = np.array([one.unit == "A" for one in actuator.inputs])
-    prices = prices_of(actuator.inputs)
-    unit = max(float(np.linalg.norm(wanted)), LEAST)
-    if isinstance(actuator, Magnet) and np.any(wanted):
-        far = np.linalg.norm(wanted - actuator.at(where, u)[0][0]) > 0.5 * unit
-        u = actuator.aimed(u, where[0], wanted) if far else u
-    u, linear = np.clip(u, low, high), _linear(actuator)
-    made = actuator.at(where, u)[0][0]
-    for _ in range(ROUNDS):
-        by_input = actuator.response(where, u)[0][0].T
-        near = np.where(currents, FREE, REACH)
-        change = None
-        for part in PARTS[:1] if linear else PARTS:
-            change = _programme(
-                np.where(currents, prices, 1.0),
-                np.where(currents, u, 0.0),
-                (by_input / unit, part * (wanted - made) / unit),
-                (np.maximum(low - u, -near), np.minimum(high - u, near)),
-            )
-            if change is not None:
-                break
-        if change is None:
-            return None
-        u = np.clip(u + change, low, high)
-        made = actuator.at(where, u)[0][0]
-        there = float(np.linalg.norm(wanted - made)) <= CLOSE * unit
-        size = max(1.0, float(np.linalg.norm(u)))
-        if there and (linear or float(np.linalg.norm(change)) <= CLOSE * size):
-            return None if actuator.violations(u) else u
-    return None
-
-
-def _linear(actuator: Actuator) -> bool:
-    """Whether the field is linear in the inputs."""
-    table = actuator.arrays()
-    return not np.any(table.curve) and len(table.posed) == 0
-
-
-def _programme(
-    prices: Array, now: Array, made: tuple[Array, Array], bounds: tuple[Array, Array]
-) -> Array | None:
-    """Least sum of prices times (now + change)^2 with rows . change = missing, within bounds."""
-    rows, missing = made
-    count = len(prices)
-    scale = prices / prices.max()
-    low, high = (np.clip(bound, -FREE, FREE) for bound in bounds)
-    kinds = np.zeros(count + len(rows), dtype=np.int32)
-    kinds[count:] = 5  # equations
-    solution, _, flag, _ = daqp.solve(
-        np.diag(scale),
-        scale * now,
-        np.ascontiguousarray(rows),
-        np.concatenate((high, missing)),
-        np.concatenate((low, missing)),
-        kinds,
-    )
-    return np.asarray(solution) if flag > 0 else None
-
-
-def binding(actuator: Actuator, place: ArrayLike, flux: ArrayLike, start: ArrayLike) -> str:
-    """Which limit is in the way of a flux density at a place, as the end of a sentence."""
-    where = array("binding", "place", place, (3,), "m")[None]
-    wanted = array("binding", "flux", flux, (3,), "T")
-    u = np.array(start, dtype=np.float64)
-    asked = f"the magnet needs {1e3 * np.linalg.norm(wanted):.3g} mT"
-    by_input = actuator.response(where, u)[0][0].T
-    made = actuator.at(where, u)[0][0]
-    change, *_ = np.linalg.lstsq(by_input, wanted - made, rcond=None)
-    if np.linalg.norm(by_input @ change - (wanted - made)) > 1e-6 * np.linalg.norm(wanted):
-        return f"{asked} in a direction that the actuator does not make there."
-    needed = u + change
-    limits = np.array([max(abs(one.low), abs(one.high)) for one in actuator.inputs])
-    over = np.abs(needed) / limits
-    worst = int(np.argmax(over))
-    one = actuator.inputs[worst]
-    if over[worst] <= 1.0:
-        said = actuator.violations(needed)
-        return f"{asked}: {said[0]}" if said else f"{asked}, and no inputs within the limits do."
-    digits = 3  # enough of them to tell the two apart
-    while f"{abs(needed[worst]):.{digits}g}" == f"{limits[worst]:.{digits}g}" and digits < 17:
-        digits += 1
-    return (
-        f"{asked}: input {one.name} is at its limit of {limits[worst]:.{digits}g} {one.unit}; "
-        f"it takes {abs(needed[worst]):.{digits}g} {one.unit}."
-    )

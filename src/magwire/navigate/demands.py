@@ -24,6 +24,9 @@ class Demands:
         Smallest eigenvalue of the tangent stiffness against the lumped mass [rad^2/s^2].
     field_tolerance
         Part by which the field may be off without harm.
+    gain_tolerance
+        Part by which the field of each coil may be off by itself, in all combinations of signs;
+        where there are no coils, each component of the field.
     max_field
         Largest flux density [T]; no planned field is larger, not by a rounding error.
     max_field_rate
@@ -35,11 +38,13 @@ class Demands:
     field_tolerance: float = 0.05
     max_field: float = float("inf")
     max_field_rate: float = float("inf")
+    gain_tolerance: float = 0.0
 
     def __post_init__(self) -> None:
         within("Demands", "tip_clearance", self.tip_clearance, low=0.0, high=1.0)
         positive("Demands", "stability_margin", self.stability_margin, "rad^2/s^2")
         within("Demands", "field_tolerance", self.field_tolerance, low=0.0, high=0.5)
+        within("Demands", "gain_tolerance", self.gain_tolerance, low=0.0, high=0.5)
         for name, unit in (("max_field", "T"), ("max_field_rate", "T/m")):
             value = getattr(self, name)
             if isinstance(value, bool) or not isinstance(value, (int, float, np.floating)):

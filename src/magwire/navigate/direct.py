@@ -26,7 +26,7 @@ from magwire.kernels.linearise import steadiness
 from magwire.navigate import tuned
 from magwire.navigate.demands import Demands
 from magwire.navigate.model import across
-from magwire.navigate.programme import NORMALS, SIDES
+from magwire.navigate.programme import NORMALS
 
 Array = NDArray[np.float64]
 
@@ -244,8 +244,25 @@ class Direct:
         over = float(np.linalg.norm(sight.offset)) - self._wider(sight.radius)
         planned = sight.offset + (0.0 if strong is None else sight.offset_by_input @ strong)
         over = max(over, float(np.linalg.norm(planned)) - self._room(sight.radius))
-        margin = self.demands.stability_margin
-        return max(0.0, over / sight.radius), max(0.0, 1.0 - sight.eigenvalue / margin)
+        margin, value = self.demands.stability_margin, sight.eigenvalue
+        if self.demands.gain_tolerance > 0.0:
+            farther = self._off(NORMALS @ sight.offset_by_input) @ self.plant.inputs
+            farthest = float((NORMALS @ planned + farther).max())
+            over = max(over, farthest - self._wider(sight.radius))
+            more = 0.0 if strong is None else float(sight.eigenvalue_by_input @ strong)
+            less = float((self._off(-sight.eigenvalue_by_input[None]) @ self.plant.inputs)[0])
+            value = min(value, value + more - less)
+        return max(0.0, over / sight.radius), max(0.0, 1.0 - value / margin)
+
+    def _off(self, rows: Array) -> Array:
+        """By what to multiply inputs for what rows . inputs gain by their errors at most.
+
+        For each row the signs of the errors are the worst ones; shape (n, m), as the rows.
+        """
+        part = self.demands.gain_tolerance / self.weak
+        worst = np.where(rows * self.plant.inputs < 0.0, -1.0, 1.0)
+        found: Array = part * worst * rows
+        return found
 
     def _merit(self, sight: Sight, before: Array) -> float:
         over, under = self._misses(sight)
@@ -306,11 +323,20 @@ class Direct:
                 self._room(size) / size - NORMALS @ (offset + further),
             ]
         )
-        grows = -sight.eigenvalue_by_input * units / margin
-        rows = np.vstack([sides, grows])
+        grows = -sight.eigenvalue_by_input[None] / margin
+        spare = np.array([sight.eigenvalue / margin - 1.0])
+        if self.demands.gain_tolerance > 0.0:
+            own, u = NORMALS @ sight.offset_by_input / size, self.plant.inputs
+            off, slower = self._off(own), self._off(grows)
+            sides = np.concatenate([sides, (part * own + off) * units])
+            left = self._wider(size) / size - NORMALS @ (offset + further) - off @ u
+            room = np.concatenate([room, left])
+            spare = np.append(spare, spare - (part - 1.0) * (grows @ u) - slower @ u)
+            grows = np.vstack([grows, part * grows + slower])
+        rows = np.vstack([sides, grows * units])
         misses = np.zeros((len(rows), 2))
-        misses[: 2 * SIDES, 0] = misses[-1, 1] = -1.0
-        rows, upper = np.hstack([rows, misses]), np.append(room, sight.eigenvalue / margin - 1.0)
+        misses[: len(sides), 0] = misses[len(sides) :, 1] = -1.0
+        rows, upper = np.hstack([rows, misses]), np.concatenate([room, spare])
         if isinstance(self._actuator, Magnet):
             near, away = self._off_vessel(self._actuator, units)
             rows = np.vstack(

@@ -155,7 +155,26 @@ class Pilot:
         ):
             view = self._improve(view, last.flux, moved)
         self._judge(view, where)
+        if self.programme.demands.gain_tolerance > 0.0:
+            self._withstand(where)
         return view
+
+    def _withstand(self, where: str) -> None:
+        """Raise if the wire slips, or its tip comes to the wall, where coils are off.
+
+        Where the wall holds the wire nothing in the equilibrium of the planned field tells of it.
+        """
+        model, programme = self.model, self.programme
+        before, part = model.remember(), programme.demands.gain_tolerance
+        flux = before.inputs / programme.demands.weakening
+        for gain in programme.gains(flux):
+            view = model.look() if model.settle(gain @ flux) else None
+            model.return_to(before)
+            if view is None or view.distance > programme.touches(view):
+                raise NavigationError(
+                    f"{where} no field was found in which the tip stays off the wall with each "
+                    f"coil off by {100.0 * part:.3g} percent; try a smaller gain_tolerance."
+                )
 
     def _improve(self, view: View, before: Array, moved: float) -> View:
         """Change the field until no programme makes it better, within its limit."""
@@ -276,6 +295,13 @@ class Pilot:
             raise NavigationError(
                 f"{within} {wider * 1e3:.3g} mm of the centreline should it be weaker; with "
                 f"{norm(view.flux) * 1e3:.3g} mT it is {view.distance * 1e3:.3g} mm away."
+            )
+        uneven = programme.uneven(view)
+        if demands.gain_tolerance > 0.0 and uneven > min(wider + missed, touches):
+            raise NavigationError(
+                f"{within} {wider * 1e3:.3g} mm of the centreline with each coil "
+                f"{demands.gain_tolerance:.3g} off; with {flux * 1e3:.3g} mT it is up to "
+                f"{uneven * 1e3:.3g} mm away."
             )
         if view.eigenvalue < (1.0 - tuned.PILOT.missed) * demands.stability_margin:
             raise NavigationError(

@@ -8,8 +8,10 @@ seen from there to first order.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from functools import lru_cache
+from itertools import product
 
 import daqp
 import numpy as np
@@ -24,9 +26,8 @@ Array = NDArray[np.float64]
 SIDES = 16  # of the polygon around the circle in which the tip may be
 ANGLES = 2.0 * np.pi * np.arange(SIDES) / SIDES
 NORMALS: Array = np.stack([np.cos(ANGLES), np.sin(ANGLES)], axis=1)
-STARTS = (0, 3 * SIDES, 3 * SIDES + 3)  # rows about the offset, the eigenvalue, the field itself
-MISSES: Array = -np.repeat(np.eye(3), (3 * SIDES, 3, 1), axis=0)
 FREE = 1e30  # no bound
+AXES: Array = np.eye(3)[:, :, None] * np.eye(3)[:, None, :]  # shares of coils along the axes
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,12 +46,15 @@ class Programme:
         What the wall keeps from the wire's axis [m].
     activation_gap
         Within it the wall presses on the tip [m].
+    shares
+        Each coil's part in a flux density: a matrix for each, shape (m, 3, 3), with the sum one.
     """
 
     demands: Demands
     unit: float
     keep_off: float
     activation_gap: float
+    shares: Array = field(default_factory=lambda: AXES)
 
     def room(self, view: View) -> float:
         """How far from the centreline the tip may be [m]."""
@@ -65,10 +69,53 @@ class Programme:
         """How far from the centreline the tip is when the wall begins to press on it [m]."""
         return view.radius - self.keep_off - self.activation_gap
 
+    @property
+    def cases(self) -> int:
+        """How many fields the conditions are about."""
+        return 3 if self.demands.gain_tolerance == 0.0 else 4
+
+    @property
+    def starts(self) -> tuple[int, int, int]:
+        """First rows about the offset, the eigenvalue, and the field itself."""
+        return 0, self.cases * SIDES, self.cases * (SIDES + 1)
+
+    def uneven(self, view: View) -> float:
+        """How far from the centreline the tip may be where coils are off, each by itself [m]."""
+        sides, _ = self.off(NORMALS @ view.offset_by_flux, view.flux)
+        planned = view.offset + (1.0 / self.demands.weakening - 1.0) * (
+            view.offset_by_flux @ view.flux
+        )
+        return float((NORMALS @ planned + sides).max())
+
+    def gains(self, flux: Array) -> Iterator[Array]:
+        """What flux densities are multiplied by where each coil is off, in all signs, (3, 3).
+
+        Of more than three coils, those signs that take this flux density farthest to the corners
+        of a cube.
+        """
+        for corner in product((-1.0, 1.0), repeat=min(3, len(self.shares))):
+            signs = np.array(corner)
+            if len(self.shares) > len(corner):
+                signs = np.where(self.shares @ flux @ signs < 0.0, -1.0, 1.0)
+            yield np.eye(3) + self.demands.gain_tolerance * np.einsum(
+                "k,kij->ij", signs, self.shares
+            )
+
+    def off(self, rows: Array, flux: Array) -> tuple[Array, Array]:
+        """The most that rows . flux density gain by errors of the coils, and its derivative.
+
+        For each row the signs of the errors are the worst ones. Shapes (n,) and (n, 3).
+        """
+        part = self.demands.gain_tolerance / self.demands.weakening
+        by_coil = np.einsum("ni,kij->nkj", part * rows, self.shares)
+        worst = np.where(by_coil @ flux < 0.0, -1.0, 1.0)
+        by_field: Array = np.einsum("nk,nkj->nj", worst, by_coil)
+        return by_field @ flux, by_field
+
     def merit(self, view: View, before: Array, stiffness: float, margin: float) -> float:
         """What the programme minimises, at the field as it is."""
         _, upper = constraints(self, view, margin)
-        missed = np.maximum(0.0, -np.minimum.reduceat(upper, STARTS))
+        missed = np.maximum(0.0, -np.minimum.reduceat(upper, self.starts))
         b, change = view.flux / self.unit, (view.flux - before) / self.unit
         return 0.5 * float(b @ b + stiffness * change @ change) + tuned.PROGRAMME.penalty * float(
             missed.sum()
@@ -144,18 +191,27 @@ def constraints(programme: Programme, view: View, margin: float) -> tuple[Array,
     weight = max(view.eigenvalue, margin)
     value, by_eigen = view.eigenvalue / weight, view.eigenvalue_by_flux * (unit / weight)
     room, flux = programme.room(view) / size, float(np.linalg.norm(b))
-    fields = np.array([1.0, 1.0 / weak, (2.0 - weak) / weak])  # over the weakest
-    rows, upper = np.empty((len(MISSES), 6)), np.empty(len(MISSES))
-    rows[:, 3:] = MISSES
-    rows[: STARTS[1], :3] = (fields[:, None, None] * (NORMALS @ by_field)).reshape(-1, 3)
-    offsets = offset + (fields[:, None] - 1.0) * (by_field @ b)
     wider = programme.wider_room(view) / size
+    fields = np.array([1.0, 1.0 / weak, (2.0 - weak) / weak])  # over the weakest
     rooms = np.array([wider, room, wider])
-    upper[: STARTS[1]] = (rooms[:, None] - offsets @ NORMALS.T).ravel()
-    rows[STARTS[1] : STARTS[2], :3] = -fields[:, None] * by_eigen
-    upper[STARTS[1] : STARTS[2]] = value + (fields - 1.0) * (by_eigen @ b) - margin / weight
-    rows[STARTS[2], :3] = b / max(flux, 1e-9)
-    upper[STARTS[2]] = min(programme.demands.largest_weakest / unit, FREE) - flux
+    uneven = programme.cases > len(fields)
+    if uneven:  # the planned field once more
+        fields, rooms = np.append(fields, fields[1]), np.append(rooms, wider)
+    _, eigen, itself = programme.starts
+    misses = -np.repeat(np.eye(3), (eigen, itself - eigen, 1), axis=0)
+    rows, upper = np.hstack([np.empty((len(misses), 3)), misses]), np.empty(len(misses))
+    rows[:eigen, :3] = (fields[:, None, None] * (NORMALS @ by_field)).reshape(-1, 3)
+    offsets = offset + (fields[:, None] - 1.0) * (by_field @ b)
+    upper[:eigen] = (rooms[:, None] - offsets @ NORMALS.T).ravel()
+    rows[eigen:itself, :3] = -fields[:, None] * by_eigen
+    upper[eigen:itself] = value + (fields - 1.0) * (by_eigen @ b) - margin / weight
+    if uneven:
+        for last, own in ((eigen, NORMALS @ by_field), (itself, -by_eigen[None])):
+            most, by_change = programme.off(own, b)
+            rows[last - len(own) : last, :3] += by_change
+            upper[last - len(own) : last] -= most
+    rows[itself, :3] = b / max(flux, 1e-9)
+    upper[itself] = min(programme.demands.largest_weakest / unit, FREE) - flux
     return rows, upper
 
 

@@ -72,6 +72,12 @@ class Schedule:
         """The schedule with all field values multiplied by a factor."""
         return Schedule(self.feed, finite("Schedule.scaled", "factor", factor) * self.flux_density)
 
+    def turned(self, matrix: ArrayLike) -> Schedule:
+        """The schedule with all field values multiplied by a matrix, shape (3, 3)."""
+        return Schedule(
+            self.feed, self.flux_density @ array("Schedule.turned", "matrix", matrix, (3, 3)).T
+        )
+
 
 def last_tries(feed: ArrayLike) -> NDArray[np.int64]:
     """Which records of a run led to the farthest feed, of what was tried again the last try.

@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.engine.plant import Snapshot
 from magwire.engine.system import System
 from magwire.errors import InputError, instance, positive
 from magwire.lumen import Lumen
@@ -19,7 +20,7 @@ from magwire.navigate.demands import Demands
 from magwire.navigate.model import InModel, Model
 from magwire.navigate.navigator import NavigationError, Observation
 from magwire.navigate.pilot import Knot, Pilot, norm
-from magwire.navigate.programme import Programme
+from magwire.navigate.programme import AXES, Programme
 from magwire.navigate.schedule import Schedule
 from magwire.navigate.swing import Swings
 
@@ -72,6 +73,7 @@ class StableNavigator:
         self.plan_every = positive("StableNavigator", "plan_every", length, "m")
         self.model = Model(system, path, friction=friction)
         self._length = self.model.reach
+        self._shares = AXES
         self._keep_to(Demands() if demands is None else demands)
         self._begin(Knot(0.0, self.model.remember(), None), back=False)
 
@@ -98,12 +100,23 @@ class StableNavigator:
 
     def expected_tip(self, feed: float) -> Array | None:
         """Where the tip should be at a feed [m], shape (3,) [m]; None between planned fields."""
+        if self.expected(feed) is None:
+            return None
+        return self.model.expected_tip(feed)
+
+    def expected(self, feed: float) -> Snapshot | None:
+        """How the wire should be at a feed [m]; None between planned fields."""
         knot = next((knot for knot in self._knots if abs(knot.feed - feed) < CLOSE), None)
         if knot is None:
             return None
         self.model.return_to(knot.snapshot)
         self.model.settle(knot.flux / self.demands.weakening)
-        return self.model.expected_tip(feed)
+        return self.model.remember()
+
+    def expect(self, shares: Array) -> None:
+        """Plan for coils, each of which makes its share of a field, shape (m, 3, 3)."""
+        self._shares = shares
+        self._keep_to(self.demands)
 
     @property
     def knot(self) -> Knot:
@@ -124,8 +137,10 @@ class StableNavigator:
             tuned.COURSE.reference * system.scales.flux_density * longer**2,
             system.keep_off,
             system.firmness.activation_gap,
+            self._shares,
         )
-        unlimited = replace(programme, demands=replace(demands, max_field=float("inf")))
+        free = replace(demands, max_field=float("inf"), gain_tolerance=0.0)
+        unlimited = replace(programme, demands=free)
         self._pilot = Pilot(self.model, programme)
         self._scout = Pilot(self.model, unlimited, firm=float("inf"))
         self._swings = Swings(self.model, programme)

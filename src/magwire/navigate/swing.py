@@ -14,6 +14,7 @@ from collections import deque
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,52 @@ from magwire.navigate.schedule import Schedule
 Array = NDArray[np.float64]
 
 ROUND = 1e-9  # round-off of feeds [m]
+
+
+class Way(NamedTuple):
+    """A way to swing onto the wall.
+
+    Attributes
+    ----------
+    leads
+        The course that leads to its start.
+    start
+        The last equilibrium of the free wire.
+    landing
+        The wire that the wall holds, pressed onto it.
+    reach
+        Length in which plans are measured [m].
+    nudge
+        Field, over that at the start, that is added on the way in the direction in which the wire
+        gives way most: it says to which side the wire swings, whichever coil is off.
+    """
+
+    leads: list[Knot]
+    start: Knot
+    landing: Knot
+    reach: float
+    nudge: float = 0.0
+
+    @property
+    def course(self) -> list[Knot]:
+        """All of it; where the wire arrives, the field stays for a while."""
+        start, landing = self.start, self.landing
+        rest = replace(landing, feed=landing.feed + tuned.SWING.length * self.reach)
+        if self.nudge == 0.0:
+            return [*self.leads, start, landing, rest]
+        assert start.view is not None
+        *_, directions = np.linalg.svd(start.view.offset_by_flux)
+        share = tuned.SWING.early
+        flux = start.flux + share * (landing.flux - start.flux)
+        flux += self.nudge * norm(start.flux) * directions[0]
+        feed = start.feed + share * (landing.feed - start.feed)
+        nudged = Knot(feed, start.snapshot.with_inputs(flux), None)
+        return [*self.leads, start, nudged, landing, rest]
+
+    @property
+    def largest(self) -> float:
+        """Largest flux density from the start on [T]."""
+        return max(norm(knot.flux) for knot in self.course[len(self.leads) :])
 
 
 class Swings:
@@ -62,55 +109,74 @@ class Swings:
             Flux density [T] that the course must stay below.
         """
         ways = [way for knot in held for way in self._onto(free, knot, highest)]
-        courses = sorted(ways, key=lambda way: way[0])
-        found = next((course for _, course in courses if self._holds(course)), None)
-        return None if found is None else self._refined(found)
+        ways.sort(key=lambda way: way.largest)
+        found = next((way for way in ways if self._holds(way)), None)
+        return None if found is None else self._refined(found).course
 
-    def _refined(self, course: list[Knot]) -> list[Knot]:
-        """The course with its start moved to where less field will do."""
+    def _refined(self, way: Way) -> Way:
+        """The way with its start moved to where less field will do."""
         for spacing in (0.5 * tuned.SWING.spacing, 0.25 * tuned.SWING.spacing):
-            better: list[Knot] | None = course
+            better: Way | None = way
             while better is not None:
-                course = better
-                better = next((c for c in self._near(course, spacing) if self._holds(c)), None)
-        return course
+                way = better
+                better = next((w for w in self._near(way, spacing) if self._holds(w)), None)
+        return way
 
-    def _near(self, course: list[Knot], spacing: float) -> Iterator[list[Knot]]:
-        """Courses that start a little beside, in less field."""
-        start = course[-3]
+    def _near(self, way: Way, spacing: float) -> Iterator[Way]:
+        """Ways that start a little beside, in less field."""
+        start = way.start
         assert start.view is not None
         size, axes = start.view.radius, start.view.axes
         for angle in np.linspace(0.0, 2.0 * np.pi, 8, endpoint=False):
             aside = spacing * size * np.array([np.cos(angle), np.sin(angle)])
             place = self._send(start, (start.view.offset + aside) @ axes, norm(start.flux))
             if place is not None and norm(place.flux) < (1.0 - tuned.SWING.gain) * norm(start.flux):
-                yield [*course[:-3], place, *course[-2:]]
+                yield way._replace(start=place)
 
-    def _onto(
-        self, free: Sequence[Knot], landing: Knot, highest: float
-    ) -> list[tuple[float, list[Knot]]]:
-        """Largest field, and course, of ways to swing to where a held knot is, or beside it."""
+    def _onto(self, free: Sequence[Knot], landing: Knot, highest: float) -> list[Way]:
+        """Ways to swing to where a held knot is, or beside it."""
         length = self._length
-        starts = [k for k in free if k.feed <= landing.feed - tuned.SWING.length * length + ROUND]
-        leads = [k for k in starts if k.feed <= starts[-1].feed - tuned.SWING.lead * length + ROUND]
-        if not leads or leads[-1].view is None:
-            return []
-        places = [
-            p
-            for p in self._places(starts[-1], tuned.SWING.spacing, highest)
-            if not self.is_held(p.view)
-        ]
-        landings = [
-            p for p in self._places(landing, tuned.SWING.coarse, highest) if self.is_held(p.view)
-        ]
+        landings: list[Knot] | None = None
         found = []
-        for place, aim in product(places, landings):
-            firm = replace(aim, snapshot=aim.snapshot.with_inputs(tuned.SWING.press * aim.flux))
-            rest = replace(firm, feed=firm.feed + tuned.SWING.length * length)
-            largest = max(norm(place.flux), norm(firm.flux))
-            if largest <= highest:
-                found.append((largest, [*leads, place, firm, rest]))
+        for part in tuned.SWING.shorter if self._uneven else (1.0,):
+            latest = landing.feed - part * tuned.SWING.length * length
+            starts = [k for k in free if k.feed <= latest + ROUND]
+            leads = [
+                k for k in starts if k.feed <= starts[-1].feed - tuned.SWING.lead * length + ROUND
+            ]
+            if not leads or leads[-1].view is None:
+                continue
+            places = [
+                p
+                for p in self._places(starts[-1], tuned.SWING.spacing, highest)
+                if not self.is_held(p.view)
+            ]
+            if landings is None:
+                landings = [
+                    self._pressed(p)
+                    for p in self._places(landing, tuned.SWING.coarse, highest)
+                    if self.is_held(p.view)
+                ]
+            for place, pressed in product(places, landings):
+                way = Way(leads, place, pressed, length)
+                nudged = [way._replace(nudge=n) for n in tuned.SWING.nudges]
+                found += [w for w in (nudged if self._uneven else [way]) if w.largest <= highest]
         return found
+
+    def _pressed(self, held: Knot) -> Knot:
+        """A wire that the wall holds in more field than it takes."""
+        pressed = tuned.SWING.press * held.flux
+        if self._uneven:  # at rest in it, as the plan goes on from there
+            self.model.return_to(held.snapshot)
+            fields = np.linspace(held.flux, pressed, 1 + tuned.SWING.presses)[1:]
+            if all(self.model.settle(flux) for flux in fields):
+                return replace(held, snapshot=self.model.remember(), view=self.model.look())
+        return replace(held, snapshot=held.snapshot.with_inputs(pressed))
+
+    @property
+    def _uneven(self) -> bool:
+        """Whether coils may be off, each by itself."""
+        return self.programme.demands.gain_tolerance > 0.0
 
     def is_held(self, view: View | None) -> bool:
         """Whether more than the field holds the wire: the wall, or the guide."""
@@ -119,27 +185,34 @@ class Swings:
             or view.eigenvalue > tuned.SWING.support * self.programme.demands.stability_margin
         )
 
-    def _holds(self, course: Sequence[Knot]) -> bool:
+    def _holds(self, way: Way) -> bool:
         """Whether the wire goes along a course, and ends held, in all fields that may come."""
         weak = self.programme.demands.weakening
-        plan = Schedule.along([(knot.feed, knot.flux / weak) for knot in course])
-        few = np.arange(
-            0.0, (1.0 + tuned.SWING.sparse) * course[-1].feed, tuned.SWING.sparse * self._length
-        )
-        sparse = Schedule(few, plan.at(few))
+        plan = Schedule.along([(knot.feed, knot.flux / weak) for knot in way.course])
+        if self._uneven:
+            trials = [plan.turned(gain) for gain in self.programme.gains(way.landing.flux)]
+            bound = tuned.SWING.uneven_bound
+            return all(self._follows(way.leads[-1], trial, bound) for trial in (*trials, plan))
+        end = way.course[-1].feed
+        few = np.arange(0.0, (1.0 + tuned.SWING.sparse) * end, tuned.SWING.sparse * self._length)
         off = tuned.SWING.off * (1.0 - weak)
-        trials = (plan.scaled(1.0 - off), sparse, plan, plan.scaled(1.0 + off))
-        return self._follows(course[-3], trials[0]) and all(
-            self._follows(course[-4], trial) for trial in trials
+        trials = [
+            plan.scaled(1.0 - off),
+            Schedule(few, plan.at(few)),
+            plan,
+            plan.scaled(1.0 + off),
+        ]
+        return self._follows(way.start, trials[0], tuned.SWING.bound) and all(
+            self._follows(way.leads[-1], trial, tuned.SWING.bound) for trial in trials
         )
 
-    def _follows(self, start: Knot, plan: Schedule) -> bool:
+    def _follows(self, start: Knot, plan: Schedule, bound: float) -> bool:
         """Whether the tip stays within bounds along a schedule, and the wire ends held."""
         model = self.model
         model.return_to(start.snapshot)
         if not model.settle(plan.at(start.feed)[0]):
             return False
-        if any(part > tuned.SWING.bound for part in model.play(plan, self.speed, tuned.SWING.step)):
+        if any(part > bound for part in model.play(plan, self.speed, tuned.SWING.step)):
             return False
         view = model.look() if model.settle(plan.flux_density[-1]) else None
         return view is not None and self.is_held(view)
@@ -172,7 +245,7 @@ class Swings:
     def _send(self, knot: Knot, target: Array, highest: float) -> Knot | None:
         """The equilibrium with the tip at an offset in space, shape (3,) [m], from a knot."""
         model, programme = self.model, self.programme
-        margin = programme.demands.stability_margin
+        margin, off = programme.demands.stability_margin, 0.0
         bounds = tuned.SWING.trust * programme.unit * np.array([[-1.0] * 3, [1.0] * 3])
         model.return_to(knot.snapshot)
         view = knot.view
@@ -186,11 +259,16 @@ class Swings:
                 return None
             settled = norm(there.flux - view.flux) < 2e-3 * programme.unit
             view = there
-            if settled:
+            off = (
+                programme.uneven(view) / (tuned.SWING.uneven * view.radius) if self._uneven else 0.0
+            )
+            if off > 1.0:  # the stiffer the wire, the less it minds which coil is off
+                margin = max(margin, min(off, tuned.SWING.stiffer) * view.eigenvalue)
+            elif settled:
                 break
         missed = float(np.linalg.norm(view.axes @ target - view.offset))
         fits = missed <= tuned.SWING.close * view.radius and view.eigenvalue >= 0.9 * margin
-        if not fits:
+        if not fits or off > 1.0:
             return None
         return Knot(knot.feed, model.remember(), view)
 

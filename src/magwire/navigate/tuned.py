@@ -126,6 +126,22 @@ class SwingNumbers:
         Part by which the field must be less to be worth another try.
     close
         Distance from a place at which the tip is there, in the lumen's radius.
+    stiffer
+        Factor of the margin, at most, from one programme to the next, where coils that are off,
+        each by itself, would move the tip too far.
+    uneven
+        Largest offset of the tip where coils are off, before and after the swing, in the lumen's
+        radius.
+    uneven_bound
+        The same while the wire swings.
+    presses
+        Steps from the least field that holds the wire to the one in which it arrives.
+    early
+        Part of the swing after which the field has its nudge.
+    nudges
+        Nudges that are tried where coils may be off, over the field at the start.
+    shorter
+        Feeds for the swing that are tried where coils may be off, over ``length``.
     """
 
     spacing: float = 0.12
@@ -145,6 +161,13 @@ class SwingNumbers:
     detour: float = 1.5
     gain: float = 0.005
     close: float = 0.05
+    stiffer: float = 4.0
+    uneven: float = 0.86
+    uneven_bound: float = 0.93
+    presses: int = 5
+    early: float = 0.3
+    nudges: tuple[float, ...] = (0.0, 0.07, -0.07, 0.1, -0.1)
+    shorter: tuple[float, ...] = (0.25, 0.5, 1.0)
 
 
 @dataclass(frozen=True)

@@ -30,6 +30,7 @@ class StableSteering(ModelSteering):
     tip_clearance: Part = 0.4
     stability_margin: Stability = preset("1 1/s^2")
     field_tolerance: Tolerance = 0.05
+    gain_tolerance: Tolerance = 0.0
     max_field: FieldLimit | None = None
     max_field_rate: FieldRate | None = None
     attempts: Annotated[int, Whole(1, 4)] = 4
@@ -45,6 +46,7 @@ class StableSteering(ModelSteering):
             tip_clearance=self.tip_clearance,
             stability_margin=self.stability_margin,
             field_tolerance=self.field_tolerance,
+            gain_tolerance=self.gain_tolerance,
             **{name: limit for name, limit in limits.items() if limit is not None},
         )
 
