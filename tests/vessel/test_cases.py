@@ -211,6 +211,23 @@ def test_tubes_are_turned_and_moved_as_itk_does() -> None:
     assert line.radius == pytest.approx([1.0, 1.1, 1.2, 1.3, 1.4])
 
 
+def test_tubes_lie_in_the_frames_of_what_they_are_a_part_of() -> None:
+    """Written by ITK 5.4.7; the ends are what it told before it wrote."""
+    lines = load(FOLDER / "itk_parents.tre").lines
+    ends = [line.points[[0, -1]].tolist() for line in lines]
+    assert np.allclose(ends[0], [[90, 0, 0], [90, 8, 0]])  # twice the scale, in a group
+    assert np.allclose(ends[1], [[90, 30, 0], [84, 30, 0]])  # in the first
+    assert np.allclose(ends[2], [[80, 30, 0], [76, 30, 0]])  # in the second
+    assert np.concatenate([line.radius for line in lines]) == pytest.approx(3.0)
+
+
+def test_a_tube_that_is_a_part_of_itself(tmp_path: Path) -> None:
+    text = (FOLDER / "itk_parents.tre").read_text().replace("ParentID = 1", "ParentID = 9")
+    (tmp_path / "a.tre").write_text(text)
+    with pytest.raises(InputError, match="part of itself, ParentID 9"):
+        Vessel.read(tmp_path / "a.tre", "mm")
+
+
 @pytest.mark.parametrize(("kind", "stated"), [("<f8", True), ("<f8", False), ("<f4", True)])
 def test_binary_tubes_of_every_width(kind: str, stated: bool, tmp_path: Path) -> None:
     rows = np.column_stack([np.arange(9.0), 0.5 * np.arange(9.0), np.zeros(9), np.full(9, 2.0)])

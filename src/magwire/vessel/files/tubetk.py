@@ -24,8 +24,9 @@ def read(data: bytes, radius: str | None) -> Drawing:
     radius
         Not used: the radius has its column.
     """
-    lines: list[Line] = []
+    tubes: list[tuple[Array, dict[str, str]]] = []
     head: dict[str, str] = {}
+    parts: dict[str, dict[str, str]] = {}
     place = 0
     while found := ENTRY.match(data, place):
         key, value = found[1].decode(), found[2].decode("latin-1").strip()
@@ -33,15 +34,18 @@ def read(data: bytes, radius: str | None) -> Drawing:
         if key == "ObjectType":
             head = {}
         head[key] = value
+        if key == "ID" and value != "-1":
+            parts[value] = head
         if key == "Points":
             try:
                 points, place = _points(data, place, head)
             except (ValueError, OverflowError, IndexError):
                 raise FileFaultError("has a tube whose points cannot be read") from None
-            lines.append(_line(points, head))
-    if not lines:
+            tubes.append((points, head))
+    if not tubes:
         raise FileFaultError("holds no tube")
-    return Drawing(tuple(line for line in lines if len(line.points) > 1), unit="mm")
+    lines = [_line(points, head, _frames(head, parts)) for points, head in tubes if len(points) > 1]
+    return Drawing(tuple(lines), unit="mm")
 
 
 def _points(data: bytes, place: int, head: dict[str, str]) -> tuple[Array, int]:
@@ -93,17 +97,32 @@ def _columns(head: dict[str, str]) -> list[str]:
     return columns
 
 
-def _line(points: Array, head: dict[str, str]) -> Line:
+def _frames(head: dict[str, str], parts: dict[str, dict[str, str]]) -> list[dict[str, str]]:
+    """A tube's entries, and those of what it is a part of, from within; a parent of -1 is none."""
+    chain = [head]
+    while (above := parts.get(chain[-1].get("ParentID", ""))) is not None:
+        if any(above is one for one in chain):
+            raise FileFaultError(
+                f"has a tube that is a part of itself, ParentID {head['ParentID']}"
+            )
+        chain.append(above)
+    return chain
+
+
+def _line(points: Array, head: dict[str, str], frames: list[dict[str, str]]) -> Line:
     """A tube where it is: stretched by the spacing, turned by the matrix, moved by the offset.
 
-    So does ITK 5.4 with points; the offset holds the centre of rotation already. Of a matrix that
-    stretches, the radius takes the mean; ITK 5.4.7's own radius in world space shrinks by turning.
+    Then by matrix and offset of what it is a part of. So does ITK 5.4 with points; the offset holds
+    the centre of rotation already. Of a matrix that stretches, the radius takes the mean.
+    ITK 5.4.7's own radius in world space shrinks by turning, and its reader loses frames of parts.
     """
     columns = _columns(head)
-    spacing, offset = _numbers(head, "ElementSpacing", "1 1 1"), _numbers(head, "Offset", "0 0 0")
-    turn = _numbers(head, "TransformMatrix", "1 0 0 0 1 0 0 0 1").reshape(3, 3)
-    stretch = spacing[0] * abs(float(np.linalg.det(turn))) ** (1.0 / 3.0)
-    places = points[:, [columns.index(axis) for axis in "xyz"]] * spacing @ turn.T + offset
+    spacing = _numbers(head, "ElementSpacing", "1 1 1")
+    places, stretch = points[:, [columns.index(axis) for axis in "xyz"]] * spacing, spacing[0]
+    for frame in frames:
+        turn = _numbers(frame, "TransformMatrix", "1 0 0 0 1 0 0 0 1").reshape(3, 3)
+        places = places @ turn.T + _numbers(frame, "Offset", "0 0 0")
+        stretch = stretch * abs(float(np.linalg.det(turn))) ** (1.0 / 3.0)
     wide = next((columns.index(name) for name in RADII if name in columns), None)
     radius = np.full(len(points), np.nan) if wide is None else points[:, wide] * stretch
     return Line(head.get("Name", ""), places, radius)
