@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 
 import magwire as mw
+import surfaces
+from magwire import planning
 from magwire.cli import main
 from magwire.cli.errand import _wire
 from magwire.many.planners import Task, plan_at_once
@@ -380,3 +382,46 @@ def test_command_says_what_is_wrong(
 ) -> None:
     assert main(["plan", *words]) == 1
     assert said in capsys.readouterr().err
+
+
+def test_a_plan_at_triangles_stays_inside_of_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A stiff shaft lies on the wall; by the distance from all triangles, one after the other."""
+    kept: list[mw.Result] = []
+    run = planning._Course.run
+
+    def kept_run(course: planning._Course, distance: float, navigator: object) -> mw.Result:
+        kept.append(run(course, distance, navigator))  # type: ignore[arg-type]
+        return kept[-1]
+
+    monkeypatch.setattr(planning._Course, "run", kept_run)
+    sheet = surfaces.tube(
+        surfaces.arc(25e-3, 1.2, 80), lambda _, angle: np.full(angle.shape, 2.4e-3), 20
+    )
+    bend = mw.Lumen.through(surfaces.arc(25e-3, 1.2, 300), 2.3e-3).with_surface(*sheet)
+    shaft = mw.Wire.uniform(
+        length=0.02,
+        radius=0.6e-3,
+        youngs_modulus=60e6,
+        shear_modulus=20e6,
+        density=2000.0,
+        nodes=17,
+    )
+    tip = mw.Wire.uniform(
+        length=8e-3,
+        radius=0.6e-3,
+        youngs_modulus=3e6,
+        shear_modulus=1e6,
+        density=2000.0,
+        nodes=17,
+        magnetized_tip=5e-3,
+        magnetization=128e3,
+    )
+    wire = mw.Wire([*shaft.sections, *tip.sections], 41)
+    (found,) = mw.plan(bend, wire, demands=mw.Demands(max_field=80e-3))
+    assert found.reached
+    assert found.wall_force > 5e-3
+    assert 0.0 < found.clearance < 0.1e-3
+    for nodes in kept[-1].position[8::8]:
+        fed = nodes[nodes[:, 0] > 0.5e-3]  # past the plane of the entrance
+        assert not surfaces.crossings(fed[:-1], fed[1:], *sheet).any()
+        assert surfaces.apart(fed[:-1], fed[1:], *sheet) > 0.6e-3
