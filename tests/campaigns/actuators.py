@@ -1,146 +1,245 @@
 """The paper's cases in the fields of coils and a magnet: amperes, watts, fields, and replays.
 
-``python -m campaigns.actuators [CASE ...]`` prints the rows of the table in docs/coils.md.
-Calibration files of real systems are not part of magwire; MAGWIRE_SHARED_DATA says where they are.
+``python -m campaigns.actuators [CASE ...]`` writes the table of docs/coils.md anew: rows of the
+cases that are named, or of all. Calibration files of real systems are not part of magwire;
+MAGWIRE_SHARED_DATA says where they are.
 """
 
 from __future__ import annotations
 
-import itertools
+import re
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+import tomli_w
 
 from actuate.handed import FOLDER
 from magwire import MagwireError, Result
-from magwire.navigate.inputs import InputSchedule
-from magwire.scenario import Scenario, inputs_of, load, parse
-from magwire.scenario.columns import NamedColumns
-from magwire.scenario.courses import columns_of
+from magwire.actuate import Actuator
+from magwire.files import parse_toml
+from magwire.navigate.least_cost import prices_of
+from magwire.scenario import load, parse
+from magwire.scenario.reader import text_of
 from magwire.scenario.schedules import replayed
 
+PAGE = Path(__file__).parents[2] / "docs/coils.md"
+HEAD = (
+    "| case | actuator | margin | largest current | peak power | mean power | peak field | "
+    "torque alone | replay |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n"
+)
 CASES = ("half-circle", "sinusoid", "helix", "left-branch", "middle-branch", "right-branch")
-BY_MAGNET = {
-    "half-circle": [],
-    "sinusoid": ["actuator.parked=['10 mm','0 mm','93 mm']"],
-}
-COARSE = ["output.record_every=0.5 mm"]
-QUANTUM, DELAY, GAIN = 0.01, 0.05, 0.03  # [A], [s], part
+MARGINS = (20.0, 50.0, 120.0)  # tried one after the other [rad^2/s^2]; for a case at full size
+TOLERANCE = 0.03  # of the gains
+BY_MAGNET = 150.0  # the margin
+LENGTHS = re.compile(r"^(\S+) (mm|mm/s|1/m)$")
 
 
-def described(case: str, hardware: str, overrides: Sequence[str]) -> Scenario:
-    """A case with the actuator of a scenario of the library around the middle of its way."""
-    import tomli_w
+@dataclass(frozen=True)
+class Rig:
+    """An actuator around a case.
 
-    from magwire.files import parse_toml
-    from magwire.scenario.reader import text_of
+    Attributes
+    ----------
+    name
+        As in the table.
+    table
+        Of the scenario.
+    part
+        Size of the case, over the paper's.
+    centre
+        Where in the actuator's own axes the middle of the way is to be [mm].
+    """
 
+    name: str
+    table: Mapping[str, Any]
+    part: float = 1.0
+    centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+def helmholtz() -> Rig:
+    """The coils of half-circle-helmholtz, with supplies that hold the helix, too."""
+    table = parse_toml(text_of("half-circle-helmholtz")[0])["actuator"]
+    for pair in table["pairs"]:
+        pair.update(max_current="48 A", supply="200 V")
+    return Rig("Helmholtz", {**table, "max_power": "10 kW"})
+
+
+def rigs() -> list[Rig]:
+    """All of coils."""
+    omnimagnet = {
+        "kind": "omnimagnet",
+        "moments": ["200 A m^2"] * 3,
+        "position": ["0 mm", "0 mm", "-200 mm"],
+        "max_current": "20 A",
+        "resistance": "1 ohm",
+    }
+    octomag = {
+        "kind": "mpem",
+        "calibration": f"{FOLDER}/octomag_calibration.yaml",
+        "max_current": "20 A",
+        "resistance": "1 ohm",
+    }
+    cardiomag = {
+        "kind": "mpem",
+        "calibration": f"{FOLDER}/cardiomag_2019_calibration.yaml",
+        "saturation": f"{FOLDER}/cardiomag_2019_saturation.yaml",
+        "max_current": "35 A",
+        "resistance": "1 ohm",
+    }
+    navion = {
+        "kind": "mpem",
+        "calibration": f"{FOLDER}/navion_2_calibration.yaml",
+        "limits": f"{FOLDER}/navion_2_limits.yaml",
+        "extrapolate": True,
+    }
+    found = [helmholtz(), Rig("Omnimagnet, case / 5", omnimagnet, 0.2)]
+    if FOLDER.is_dir():
+        found += [
+            Rig("OctoMag, case / 5", octomag, 0.2),
+            Rig("CardioMag", cardiomag, 1.0, (0.0, 21.0, 120.0)),
+            Rig("Navion 2", navion),
+        ]
+    return found
+
+
+def scaled(value: Any, part: float) -> Any:
+    """A table with all of its lengths and speeds times a factor, and curvatures over it."""
+    if isinstance(value, dict):
+        return {key: scaled(each, part) for key, each in value.items()}
+    if isinstance(value, list):
+        return [scaled(each, part) for each in value]
+    found = LENGTHS.match(value) if isinstance(value, str) else None
+    if found is None:
+        return value
+    number, unit = float(found[1]), found[2]
+    return f"{number / part if unit == '1/m' else number * part!r} {unit}"
+
+
+def steered(case: str, rig: Rig, objective: str, margin: float) -> Result:
+    """A case at a rig's size, steered by its inputs."""
+    raw = {
+        key: scaled(value, rig.part) if key in ("wire", "lumen", "contact", "feed") else value
+        for key, value in parse_toml(text_of(case)[0]).items()
+    }
+    way = rig.part * load(case).lumen.build().path().centreline()[0]
+    middle = 1e3 * 0.5 * (way.min(axis=0) + way.max(axis=0)) - np.array(rig.centre)
+    pose = {"translation": [f"{x!r} mm" for x in middle.tolist()]}
+    raw["actuator"] = {**rig.table, "pose": pose}
+    raw["navigate"] = {
+        "method": "stable",
+        "stability_margin": f"{margin / rig.part**2!r} 1/s^2",
+        "gain_tolerance": TOLERANCE,
+        "objective": objective,
+        "update_every": f"{rig.part!r} mm",
+    }
+    raw["solver"]["time_step"] = "20 ms"
+    raw["output"] = {"record_every": f"{0.5 * rig.part!r} mm"}
+    return parse(tomli_w.dumps(raw)).run()
+
+
+def by_magnet(case: str) -> Result:
+    """A case steered by the magnet of half-circle-magnet."""
     raw = parse_toml(text_of(case)[0])
-    raw["actuator"] = parse_toml(text_of(hardware)[0])["actuator"]
-    raw["navigate"] = {"method": "stable"}
-    if raw["actuator"]["kind"] != "magnet":
-        way = load(case).lumen.build().path().centreline()[0]
-        middle = 0.5 * (way.min(axis=0) + way.max(axis=0))
-        raw["actuator"]["pose"] = {"translation": [f"{x!r} m" for x in middle.tolist()]}
-    return parse(tomli_w.dumps(raw), [*COARSE, *overrides])
+    raw["actuator"] = parse_toml(text_of("half-circle-magnet")[0])["actuator"]
+    raw["navigate"] = {"method": "stable", "stability_margin": f"{BY_MAGNET} 1/s^2"}
+    raw["solver"]["time_step"] = "50 ms"
+    raw["feed"]["speed"] = "2 mm/s"
+    raw["output"] = {"record_every": "0.5 mm"}
+    return parse(tomli_w.dumps(raw)).run()
 
 
-def row(case: str, hardware: str, result: Result) -> str:
-    """A row of the table."""
-    if result.status != "complete":
-        return f"| `{case}` | {hardware} | {result.message} |"
-    names = result.input_names
-    amperes = [k for k, (_, unit) in enumerate(names) if unit == "A"]
-    if amperes:
-        most = np.abs(result.inputs[:, amperes]).max()
-        cost = f"{most:.1f} A | {result.power.max():.0f} W | {result.power.mean():.0f} W"
-    else:
-        way = np.linalg.norm(np.diff(result.inputs[:, :3], axis=0), axis=1).sum()
-        cost = f"{1e3 * way:.0f} mm of way | |"
+def torque_alone(result: Result, actuator: Actuator) -> float:
+    """Part of the field's energy that is saved where only its torque on the magnet is made.
+
+    The flux density along the tip is free then, without regard to stability: a bound.
+    """
+    inverse = 1.0 / prices_of(actuator.inputs)
+    spent = saved = 0.0
+    for wire, flux in zip(result.position, result.field, strict=True):
+        tip = wire[-1]
+        along = tip - wire[-2]
+        along = along / np.linalg.norm(along)
+        _, _, rows = np.linalg.svd(along[None])
+        made = actuator.response(tip[None], actuator.idle)[0][0].T
+        by_flux = (made * inverse) @ made.T
+        across = rows[1:]
+        field = float(flux @ np.linalg.solve(by_flux, flux))
+        torque = across @ flux
+        spent += field
+        saved += field - float(torque @ np.linalg.solve(across @ by_flux @ across.T, torque))
+    return saved / spent
+
+
+def stays_free(result: Result) -> str:
+    """What a replay shows."""
     replay = replayed(result).run()
-    free = "free" if replay.status == "complete" and replay.max_tip_force == 0.0 else "touches"
-    return f"| `{case}` | {hardware} | {cost} | {1e3 * result.peak_field:.1f} mT | {free} |"
+    done = replay.status == "complete" and replay.max_tip_force == 0.0
+    return "free" if done else f"touches, {1e6 * replay.max_tip_force:.2g} µN"
 
 
-def disturbed(result: Result) -> Iterator[tuple[tuple[float, ...], Result]]:
-    """Replays with currents in quanta, late, and off by a gain of each coil in all signs."""
-    scenario = replayed(result)
-    course, speed = inputs_of(result), float(result.feed[-1] / result.time[-1])
-    for signs in itertools.product((-1.0, 1.0), repeat=len(course.names)):
-        late = course.at(course.feed - DELAY * speed)
-        made = QUANTUM * np.round(late / QUANTUM) * (1.0 + GAIN * np.array(signs))
-        moved = InputSchedule(course.feed, made, course.names)
-        table = NamedColumns().write(columns_of(moved))
-        steered = {"navigate": {"method": "inputs", "table": table}}
-        import tomli_w
+def row(case: str, rig: Rig) -> str:
+    """A row: of the planned field and, after an arrow, of the currents of least power."""
+    refused = ""
+    for margin in MARGINS:
+        try:
+            field, power = (steered(case, rig, which, margin) for which in ("field", "power"))
+        except MagwireError as error:
+            return f"| {case} | {rig.name} | | {error} | | | | | |"
+        said = [result.message for result in (field, power) if result.status != "complete"]
+        if not said:
+            break
+        refused = refused or said[-1]
+    else:
+        return f"| {case} | {rig.name} | {MARGINS[0]:g} | {refused} | | | | | |"
 
-        from magwire.files import parse_toml
+    def cell(of: Any, digits: str, unit: str) -> str:
+        return f"{of(field):{digits}} → {of(power):{digits}} {unit}"
 
-        raw = {**parse_toml(scenario.to_toml()), **steered}
-        yield signs, parse(tomli_w.dumps(raw)).run()
-
-
-def main(cases: Sequence[str]) -> None:
-    """Print the rows of some cases."""
-    for case in cases or CASES:
-        for objective in ("field", "power"):
-            scenario = described(
-                case, "half-circle-helmholtz", [f"navigate.objective={objective}", *STEADY]
-            )
-            result = scenario.run()
-            print(row(case, f"Helmholtz, {objective}", result), flush=True)
-        if result.status == "complete":
-            pressed = [run.max_tip_force for _, run in disturbed(result)]
-            print(
-                f"  disturbed: {sum(f == 0.0 for f in pressed)} of {len(pressed)} free of tip "
-                f"contact, at most {1e3 * max(pressed):.3g} mN",
-                flush=True,
-            )
-        if case in BY_MAGNET:
-            margin = ["navigate.stability_margin=150 1/s^2"]
-            try:
-                result = described(case, "half-circle-magnet", [*margin, *BY_MAGNET[case]]).run()
-                print(row(case, "magnet", result), flush=True)
-            except MagwireError as error:
-                print(f"| `{case}` | magnet | {error} |", flush=True)
-    if FOLDER.is_dir() and not cases:
-        calibrated()
-
-
-STEADY = ["navigate.stability_margin=10 1/s^2"]
-
-
-def calibrated() -> None:
-    """Navion 2 on the half-circle, and OctoMag on a sinusoid in its box."""
-    navion = (
-        f"actuator={{kind='mpem', calibration='{FOLDER}/navion_2_calibration.yaml', "
-        f"limits='{FOLDER}/navion_2_limits.yaml', extrapolate=true, "
-        "pose={translation=['12.5 mm','25 mm','0 mm']}}"
-    )
-    result = load("half-circle", [navion, *COARSE, *STEADY]).run()
-    print(row("half-circle", "Navion 2", result), flush=True)
-    for objective in ("field", "power"):
-        result = load("sinusoid", [octomag(), *SMALL, f"navigate.objective={objective}"]).run()
-        print(row("sinusoid / 5", f"OctoMag, {objective}", result), flush=True)
-
-
-def octomag() -> str:
-    """Eight coils, 20 A and an ohm each, around a small sinusoid."""
-    return (
-        f"actuator={{kind='mpem', calibration='{FOLDER}/octomag_calibration.yaml', "
-        "max_current='20 A', resistance='1 ohm', pose={translation=['8 mm', '0 mm', '0 mm']}}"
+    actuator = replayed(power).actuator.build()
+    return " | ".join(
+        [
+            f"| {case} | {rig.name} | {margin:g}",
+            cell(lambda result: np.abs(result.inputs).max(), ".1f", "A"),
+            cell(lambda result: result.power.max(), ".3g", "W"),
+            cell(lambda result: result.power.mean(), ".3g", "W"),
+            cell(lambda result: 1e3 * result.peak_field, ".1f", "mT"),
+            f"{-100.0 * torque_alone(power, actuator):.0f} %",
+            f"{stays_free(field)} → {stays_free(power)} |",
+        ]
     )
 
 
-SMALL = [
-    *("wire.length=20 mm", "wire.radius=0.12 mm", "wire.magnetized_tip=1 mm"),
-    *("lumen.amplitude=3 mm", "lumen.period=16 mm", "lumen.length=16 mm", "lumen.radius=0.6 mm"),
-    *("contact.activation_gap=0.02 mm", "feed.distance=13.6 mm", "feed.speed=0.2 mm/s"),
-    *("navigate.update_every=0.1 mm", "navigate.stability_margin=250 1/s^2"),
-    "output.record_every=0.1 mm",
-]
-"""The sinusoid at a fifth of its size, in the same fields."""
+def magnet_row(case: str) -> str:
+    """A row of the magnet on an arm."""
+    try:
+        result = by_magnet(case)
+    except MagwireError as error:
+        return f"| {case} | magnet | {BY_MAGNET:g} | {error} | | | | | |"
+    if result.status != "complete":
+        return f"| {case} | magnet | {BY_MAGNET:g} | {result.message} | | | | | |"
+    way = 1e3 * np.linalg.norm(np.diff(result.inputs[:, :3], axis=0), axis=1).sum()
+    peak = 1e3 * result.peak_field
+    said = f"{way:.0f} mm of way | | | {peak:.1f} mT | | {stays_free(result)}"
+    return f"| {case} | magnet | {BY_MAGNET:g} | {said} |"
+
+
+def main(cases: tuple[str, ...]) -> None:
+    """Write the table, row by row."""
+    page = PAGE.read_text()
+    before, rest = page.split("<!-- campaigns.actuators -->\n", maxsplit=1)
+    _, after = rest.split("<!-- end -->\n", maxsplit=1)
+    rows: list[str] = []
+    for case in cases:
+        for rig in (*rigs(), None):
+            rows.append(magnet_row(case) if rig is None else row(case, rig))
+            print(rows[-1], flush=True)
+            table = HEAD + "".join(f"{line}\n" for line in rows)
+            PAGE.write_text(f"{before}<!-- campaigns.actuators -->\n{table}<!-- end -->\n{after}")
+
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main(tuple(sys.argv[1:]) or CASES)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from functools import cache
 from pathlib import Path
 
@@ -361,6 +362,25 @@ def test_coils_that_are_too_slow_are_named_with_the_rate() -> None:
     assert result.status == "no field"
     assert "mm of feed input I" in result.message
     assert "would have to change by" in result.message
+
+
+@needs_files
+def test_navion_is_refused_on_the_half_circle_with_coil_and_feed() -> None:
+    navion = (
+        f"actuator={{kind='mpem', calibration='{FOLDER}/navion_2_calibration.yaml', "
+        f"limits='{FOLDER}/navion_2_limits.yaml', extrapolate=true, "
+        "pose={translation=['12.5 mm','25 mm','0 mm']}}"
+    )
+    coarse = ["solver.time_step=50 ms", "feed.speed=4 mm/s", "output.record_every=1 mm"]
+    result = load("half-circle", [navion, *coarse, "navigate.stability_margin=10 1/s^2"]).run()
+    assert result.status == "no field"
+    found = re.fullmatch(
+        r"At ([\d.]+) mm of feed .*input (Coil_\d) is at its limit of 35 A; .*takes? ([\d.]+) A\.",
+        result.message,
+    )
+    assert found, result.message
+    assert 10.0 < float(found[1]) < 72.0
+    assert float(found[3]) > 35.0
 
 
 @needs_files

@@ -12,6 +12,7 @@ a little, as the field is nothing that could be chosen freely.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import product
 
 import daqp
 import numpy as np
@@ -157,7 +158,33 @@ class Direct:
     def meets(self, sight: Sight) -> bool:
         """Whether an equilibrium does what is asked for, or misses it by little."""
         over, under = self._misses(sight)
-        return over <= MISSED and under <= MISSED and self._spare() >= 0.0
+        within = over <= MISSED and under <= MISSED and self._spare() >= 0.0
+        return within and self._withstands(sight)
+
+    def _withstands(self, sight: Sight) -> bool:
+        """Whether the wire stays where it is, off the wall, with inputs off in all signs.
+
+        Of more than three inputs, those signs that move the tip most in eight directions.
+        """
+        part = self.demands.gain_tolerance
+        if part == 0.0:
+            return True
+        plant, start = self.plant, self.plant.snapshot()
+        count = len(start.inputs)
+        if count <= 3:
+            signs = np.array(list(product((-1.0, 1.0), repeat=count)))
+        else:
+            moves = NORMALS[::2] @ sight.offset_by_input * start.inputs
+            signs = np.where(moves < 0.0, -1.0, 1.0)
+        touches = sight.radius - self._system.keep_off - self._system.firmness.activation_gap
+        for gains in 1.0 + part * signs:
+            plant.inputs = gains * start.inputs / self.weak
+            stays = plant.settle(self._limits)[0] is Status.CONVERGED and self._eigenvalue() > 0.0
+            away = float(np.linalg.norm(self._tip()[0]))
+            plant.restore(start)
+            if not stays or away > touches:
+                return False
+        return True
 
     def look(self) -> Sight | None:
         """The equilibrium as it is; None if it is not stable."""
