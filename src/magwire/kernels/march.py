@@ -192,14 +192,14 @@ def solve_step(frictions, model, state, mouth, motion, work, limits, dt):
 @kernel
 def rub(model, state, mouth, motion, work, limits):
     """Newton's method with friction: again until the normal forces are those of the step's end."""
-    rod, _, wall, lumen = model
+    wall = model[2]
     iterations, factorisations = 0, 0
     for _ in range(LOADINGS):
         outcome = newton(model, work.ahead, mouth, motion, work, limits)
         status, taken, factored, residual, nearest = outcome
         iterations += taken
         factorisations += factored
-        if status != CONVERGED or reload(rod, lumen, wall, state, work.ahead, work):
+        if status != CONVERGED or reload(wall.friction[0], state, work.ahead):
             return status, iterations, factorisations, residual, nearest
     return TOO_MANY_ITERATIONS, iterations, factorisations, residual, nearest
 
