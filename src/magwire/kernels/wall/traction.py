@@ -27,8 +27,8 @@ from magwire.kernels.wall.gap import gap_value
 
 # Columns of State.contact: elastic slip, the wall's normal, its force, whether the node slides, how
 # far it has slid, the factor of its coefficients, and how fast the force grew in the last step.
-SLIP, NORMAL, LOAD, SLIDES, SLID, FACTOR, GROWTH = 0, 3, 6, 7, 8, 9, 10
-CONTACT = 11
+SLIP, NORMAL, LOAD, SLIDES, SLID, FACTOR, GROWTH, BEND, COMING = 0, 3, 6, 7, 8, 9, 10, 11, 12
+CONTACT = 13
 MOST = 2.0  # times a normal force that it may be guessed to grow, or shrink, in a step
 SETTLED = 1e-3  # relative change of a normal force at which it is known (P-31)
 SMALL = 1e-3  # of the largest normal force: what is less is known as well as this is
@@ -135,6 +135,19 @@ def guess(size, growth, dt):
     return min(max(size + growth * dt, size / MOST), size * MOST)
 
 
+@kernel
+def look_ahead(kept, growth):
+    """Note how fast a normal force grew in a step, and say how fast it will grow in the next.
+
+    As in this one, and as much faster as this one was than the one before, if that would have been
+    the better guess for this one.
+    """
+    bend = growth - kept[GROWTH]
+    steady = abs(bend - kept[BEND]) < abs(bend)
+    kept[GROWTH], kept[BEND] = growth, bend
+    kept[COMING] = growth + bend if steady else growth
+
+
 @part
 def begin(rod, lumen, wall, state, carried, held, dt, work):
     """Begin a step of length dt at a state, with the wall's forces as they go on from there.
@@ -149,7 +162,7 @@ def begin(rod, lumen, wall, state, carried, held, dt, work):
     for i in range(held + 1, state.q.shape[0]):
         size = pushed_at(friction, i)
         friction.begun[i] = size
-        _take(friction, state, state, i, size, guess(size, state.contact[i, GROWTH], dt))
+        _take(friction, state, state, i, size, guess(size, state.contact[i, COMING], dt))
 
 
 @kernel
@@ -347,14 +360,13 @@ def keep(rod, friction, state, ahead):
         if size == 0.0 and kept[LOAD] == 0.0:
             continue
         kept[LOAD], kept[FACTOR] = size, friction.factor[i]
-        kept[GROWTH] = 0.0
         if size == 0.0:
             for c in range(LOAD):
                 kept[c] = 0.0
-            kept[SLIDES] = 0.0
+            kept[SLIDES] = kept[GROWTH] = kept[BEND] = kept[COMING] = 0.0
             continue
         if friction.drag == 0.0:
-            kept[GROWTH] = (friction.ended[i] - friction.begun[i]) * friction.rate[0]
+            look_ahead(kept, (friction.ended[i] - friction.begun[i]) * friction.rate[0])
         reach, way = reach_at(friction, ahead, i)
         cone, stiffness = cone_at(friction, i)
         slip = (0.0, 0.0, 0.0)
