@@ -144,9 +144,9 @@ class Friction(NamedTuple):
     load [N+1, 4] normal and normal force; anchor
     [N+1, 3] elastic slip at its beginning; turning, leaning [N+1, 3] displacement of the surface
     per angle about the axis, and as the nodes beside it move along the normal; factor [N+1];
-    slides [N+1]; begun, ended [N+1] normal forces at its ends; pushed [N+1, 4] minus the wall's forces
-    where they were read off last. tangent: scratch, a row with what is
-    left and right of the diagonal for each of a band; see ``wall.onward``.
+    slides [N+1]; begun, ended [N+1] normal forces at its ends; pushed [N+1, 4] minus the wall's
+    forces where they were read off last. tangent: scratch, a row with what is left and right of the
+    diagonal for each of a band; see ``wall.onward``.
     """
 
     static: Array

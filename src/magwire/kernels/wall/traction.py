@@ -329,8 +329,10 @@ def known(friction, ahead, held):
 
 
 @part
-def reload(friction, state, ahead):
+def reload(friction, state, ahead, share):
     """Whether the normal forces at the end of a step were known; they are taken for known if not.
+
+    share: by which part of the difference they are changed.
 
     A node that has left its static cone slides for the rest of the step: with two coefficients, one
     that could stick again might go to and fro for ever. ``keep`` decides what it does from there.
@@ -344,8 +346,19 @@ def reload(friction, state, ahead):
         if friction.load[i, 3] > 0.0 and gives_way(friction, ahead, i):
             friction.slides[i] = True
         size = friction.ended[i]
+        if share < 1.0:
+            size = _between(friction, i, share)
         _take(friction, state, ahead, i, size, size)
     return False
+
+
+@kernel
+def _between(friction, i, share):
+    """Take a force between the one that was known and the one read off; its size."""
+    rest = (share - 1.0) * friction.load[i, 3]
+    for c in range(3):
+        friction.pushed[i, c] = share * friction.pushed[i, c] + rest * friction.load[i, c]
+    return pushed_at(friction, i)
 
 
 @kernel
