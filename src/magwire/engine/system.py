@@ -45,6 +45,7 @@ Release = Literal["sliding", "node"]
 
 TOLERANCE = 1e-6  # force residual of a time step, in EI/L^2
 LAST_STEP = 1e-7  # a Newton step of a time step that needs no further one, in wire lengths
+LAST_SLIP = 0.03  # the same under friction, over the elastic slip at the cone
 UNEVEN = 10.0  # ratio of bending stiffnesses from which on time steps, too, let edges turn
 SHARP_TOLERANCE = 1e-9  # force residual of an equilibrium, in EI/L^2
 ITERATIONS = 60  # of a time step
@@ -285,8 +286,7 @@ class System:
         """When Newton's method stops in a time step."""
         stiffnesses = [section.bending_stiffness for section in self.wire.sections]
         turn = 1.0 if max(stiffnesses) > UNEVEN * min(stiffnesses) else 0.0
-        # An elastic slip at its cone is hardly longer than a last step: with friction, forces say.
-        step = 0.0 if self.rubs else LAST_STEP
+        step = min(LAST_STEP, LAST_SLIP * self.elastic_slip) if self.rubs else LAST_STEP
         return self._limits(TOLERANCE, ITERATIONS)._replace(step=step, turn=turn, halve=self.halves)
 
     def sharp_limits(self) -> Limits:
@@ -431,12 +431,12 @@ class System:
             static=static,
             kinetic=kinetic,
             radius=_ghost(self.mesh.radius) / length,
-            slip=ELASTIC_SLIP * self.path.narrowest / length if self.lumen.branches else 1.0,
+            slip=self.elastic_slip,
             drag=friction.drag * length**4 / self.wire.bending_stiffness,
             table=table,
             path=self.path_arrays,
             rate=np.zeros(1),
-            start=np.zeros((nodes, 7)),
+            start=np.zeros((nodes, 4)),
             load=np.zeros((nodes, 4)),
             anchor=np.zeros((nodes, 3)),
             turning=np.zeros((nodes, 3)),
@@ -445,9 +445,17 @@ class System:
             slides=np.zeros(nodes, dtype=np.bool_),
             begun=np.zeros(nodes),
             ended=np.zeros(nodes),
+            pushed=np.zeros((nodes, 4)),
             tangent=np.zeros((4 * (nodes + 1), FULL)),
         )
         return (arrays,)
+
+    @property
+    def elastic_slip(self) -> float:
+        """How far a contact that sticks gives way at its static cone, in wire lengths (P-30)."""
+        if not self.lumen.branches:
+            return 1.0
+        return ELASTIC_SLIP * self.path.narrowest / self.wire.length
 
     @property
     def rubs(self) -> bool:

@@ -142,12 +142,13 @@ class Friction(NamedTuple):
     surface; slip: elastic slip at the static cone; drag: viscous force per length and speed; table
     [k, 2] arc parameter on ``path`` and factor of the coefficients there.
 
-    Of the step: rate [1] one over its length; start [N+1, 7] position and angle at its beginning,
-    and the way between the nodes on either side; load [N+1, 4] normal and normal force; anchor
+    Of the step: rate [1] one over its length; start [N+1, 4] positions and angles at its beginning;
+    load [N+1, 4] normal and normal force; anchor
     [N+1, 3] elastic slip at its beginning; turning, leaning [N+1, 3] displacement of the surface
     per angle about the axis, and as the nodes beside it move along the normal; factor [N+1];
-    slides [N+1]; begun, ended [N+1] normal forces at its ends. tangent: scratch, a row with what is
-    left and right of the diagonal for each of a band; see ``wall.onward``.
+    slides [N+1]; begun, ended [N+1] normal forces at its ends; pushed [N+1, 4] minus the wall's
+    forces where they were read off last. tangent: scratch, a row with what is left and right of the
+    diagonal for each of a band; see ``wall.onward``.
     """
 
     static: Array
@@ -167,6 +168,7 @@ class Friction(NamedTuple):
     slides: Flag
     begun: Array
     ended: Array
+    pushed: Array
     tangent: Array
 
 

@@ -40,7 +40,7 @@ from magwire.kernels.stretching import stretching, stretching_hessian
 from magwire.kernels.twisting import twisting_gradient, twisting_hessian
 from magwire.kernels.vectors import add, combine, dot, row, scale, sub
 from magwire.kernels.wall.contact import add_walls
-from magwire.kernels.wall.traction import friction_energy
+from magwire.kernels.wall.traction import friction_energy, note_pushes
 
 FIRST = 7
 LEAD = 8
@@ -293,6 +293,7 @@ def assemble(model, state, mouth, motion, gradient, band):
     contact, nearest = add_walls(rod, lumen, wall, state, held, gradient, band)
     if contact == inf:
         return inf, nearest
+    note_pushes(wall.friction, gradient, held)
     energy = contact + add_elements(rod, field, state, mouth, gradient, band)
     if not field.uniform[0]:
         energy += add_magnets(rod, field, state, held, gradient, band)

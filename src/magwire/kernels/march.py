@@ -34,7 +34,9 @@ from magwire.kernels.wall.work import count_half
 
 COARSE = 6  # a step may be cut in half this many times before its parts follow the wall
 RETRIES = 10  # and this many times in all
-LOADINGS = 30  # times that the normal forces of a step with friction are read off its end
+SNAPPING = 10  # times as many iterations has a step without inertia under friction: it may snap
+EAGER = 5  # after so many times they are changed by half: they may go to and fro for ever
+LOADINGS = 60  # times that the normal forces of a step with friction are read off its end
 
 
 class Drive(NamedTuple):
@@ -151,9 +153,10 @@ def time_step(model, guide, state, work, limits, slides, start, end, dt, drive):
     place_held(rod, guide, work.ahead, held - 1, held, end[0], end[1])
     update_frames(state, work.ahead, held)
     motion = Motion(drag / (dt * dt) if drive.inertia else 0.0, work.target)
+    snaps = not drive.inertia and len(wall.friction) > 0
     limits = Limits(
         limits.tolerance,
-        limits.iterations,
+        limits.iterations * (SNAPPING if snaps else 1),
         limits.shift,
         limits.step,
         limits.turn,
@@ -192,14 +195,16 @@ def solve_step(frictions, model, state, mouth, motion, work, limits, dt):
 @kernel
 def rub(model, state, mouth, motion, work, limits):
     """Newton's method with friction: again until the normal forces are those of the step's end."""
-    rod, _, wall, lumen = model
+    wall = model[2]
     iterations, factorisations = 0, 0
-    for _ in range(LOADINGS):
+    for k in range(LOADINGS):
         outcome = newton(model, work.ahead, mouth, motion, work, limits)
         status, taken, factored, residual, nearest = outcome
         iterations += taken
         factorisations += factored
-        if status != CONVERGED or reload(rod, lumen, wall, state, work.ahead, work):
+        if status != CONVERGED or reload(
+            wall.friction[0], state, work.ahead, 1.0 if k < EAGER else 0.5
+        ):
             return status, iterations, factorisations, residual, nearest
     return TOO_MANY_ITERATIONS, iterations, factorisations, residual, nearest
 

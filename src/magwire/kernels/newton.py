@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from magwire.kernels._jit import kernel, part, short
 from magwire.kernels.assembly import FIRST, assemble
-from magwire.kernels.band import factor, solve
+from magwire.kernels.band import WIDTH, factor, solve
 from magwire.kernels.frames import update_frames
 from magwire.kernels.groups import larger, largest_of, total
 from magwire.kernels.history import copy_configuration
@@ -132,13 +132,21 @@ def find_step(model, state, mouth, motion, work, limits, level):
             level += 1
             if level == SHIFTS:
                 return -count, 0
+    backward(work, held, nodes)
+    return count, level
+
+
+@kernel
+def backward(work, held, nodes):
+    """The step against the gradient, by the factor in the band."""
+    last = 4 * (nodes - held + 1) - 1
     for i in range(held, nodes):
         store(work.step, 4 * (i - held + 1), 0, -load(work.gradient, i, 0))
     for r in range(FIRST):
         work.step[r] = 0.0
-    work.step[last] = 0.0
+    for r in range(last, last + WIDTH):  # what was never finite must not come back
+        work.step[r] = 0.0
     solve(work.band, work.step, FIRST, last)
-    return count, level
 
 
 @short
@@ -231,6 +239,36 @@ def search(model, a, b, mouth, motion, work, limits, aim):
 
 
 @kernel
+def refine(frictions, model, a, b, mouth, motion, work, tolerance, long, now):
+    """With friction, bring what a last step left within the tolerance, by the factor it was from.
+
+    A contact passes from stick to slip on a way as short as such a step is. The factor is nearly
+    that of where the wire is now: each time forces are a hundredth or so of those before, without a
+    Hessian. It ends where they do not halve; then Newton's method goes on.
+
+    long: the last step, than which none is longer. now: energy and smallest clearance at a, and the
+    largest force left. The same is returned of where a then is.
+    """
+    if len(frictions) == 0:
+        return now
+    else:
+        energy, nearest, size = now
+        held, nodes = mouth.held, a.q.shape[0]
+        while not size <= tolerance:
+            backward(work, held, nodes)
+            if not longest(work.step, held, nodes) <= long:
+                break
+            take_step(a, b, held, 1.0, work.step)
+            lower, near = assemble(model, b, mouth, motion, work.gradient, work.no_band)
+            left = residual(work.gradient, held)
+            if not (lower < inf and left < 0.5 * size):
+                break
+            copy_configuration(b, a, held)
+            energy, nearest, size = lower, near, left
+        return energy, nearest, size
+
+
+@kernel
 def newton(model, state, mouth, motion, work, limits):
     """Minimise the energy from ``state``, which ends as the last iterate, converged or not.
 
@@ -288,7 +326,12 @@ def newton(model, state, mouth, motion, work, limits):
         size = residual(work.gradient, held)
         small = min(limits.step, LAST * nearest)
         if share == 1.0 and size < inf and long < small:
-            break
+            now = energy, nearest, size
+            tolerance = limits.tolerance
+            now = refine(model[2].friction, model, a, b, mouth, motion, work, tolerance, long, now)
+            energy, nearest, size = now
+            if len(model[2].friction) == 0:
+                break
     easy[0] = 0.0
     copy_configuration(a, state, held)
     return status, iteration, factorisations, size, nearest

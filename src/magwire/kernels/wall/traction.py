@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from magwire.kernels._jit import kernel, part
 from magwire.kernels.blocks import outer, sym_add, sym_identity, sym_outer, sym_pair
+from magwire.kernels.lanes import clear_rows, copy_rows
 from magwire.kernels.scatter import add_block, add_column, add_diagonal, add_row, add_vector
 from magwire.kernels.vectors import add, combine, dot, norm, row, scale, sub
 from magwire.kernels.wall.contact import add_walls
@@ -26,8 +27,8 @@ from magwire.kernels.wall.gap import gap_value
 
 # Columns of State.contact: elastic slip, the wall's normal, its force, whether the node slides, how
 # far it has slid, the factor of its coefficients, and how fast the force grew in the last step.
-SLIP, NORMAL, LOAD, SLIDES, SLID, FACTOR, GROWTH = 0, 3, 6, 7, 8, 9, 10
-CONTACT = 11
+SLIP, NORMAL, LOAD, SLIDES, SLID, FACTOR, GROWTH, BEND, COMING = 0, 3, 6, 7, 8, 9, 10, 11, 12
+CONTACT = 13
 MOST = 2.0  # times a normal force that it may be guessed to grow, or shrink, in a step
 SETTLED = 1e-3  # relative change of a normal force at which it is known (P-31)
 SMALL = 1e-3  # of the largest normal force: what is less is known as well as this is
@@ -35,11 +36,10 @@ TURN = 2e-3  # turn of a normal times its coefficient, at which it is known: it 
 
 
 @kernel
-def angle_at(state, i):
+def angle_at(q, i):
     """Angle of the wire about its axis at a node: the mean of its edges'."""
-    last = state.length.shape[0] - 1
-    before = state.q[i - 1, 3]
-    return before if i > last else 0.5 * (before + state.q[i, 3])
+    before = q[i - 1, 3]
+    return before if i == q.shape[0] - 1 else 0.5 * (before + q[i, 3])
 
 
 @part
@@ -61,9 +61,9 @@ def span_at(state, i):
 
 
 @kernel
-def spread_at(state, i):
+def spread_at(q, i):
     """From the node before a node to the one after it; to the tip itself."""
-    return sub(row(state.q, min(i + 1, state.q.shape[0] - 1)), row(state.q, i - 1))
+    return sub(row(q, min(i + 1, q.shape[0] - 1)), row(q, i - 1))
 
 
 @kernel
@@ -118,15 +118,12 @@ def set_load(friction, state, ahead, i, n, size):
 
 
 @part
-def _start_at(friction, state, i):
-    """Take a node's position, angle and lean for those at the beginning of a step."""
-    for c in range(3):
-        friction.start[i, c] = state.q[i, c]
-    friction.start[i, 3] = angle_at(state, i)
-    beside = spread_at(state, i)
-    for c in range(3):
-        friction.start[i, 4 + c] = beside[c]
-    friction.slides[i] = state.contact[i, SLIDES] > 0.0
+def _start(friction, state, held):
+    """Take where a wire is, and which nodes slide, for the beginning of a step."""
+    nodes = state.q.shape[0]
+    copy_rows(state.q, friction.start, held - 1, nodes)
+    for i in range(held + 1, nodes):
+        friction.slides[i] = state.contact[i, SLIDES] > 0.0
 
 
 @kernel
@@ -138,6 +135,19 @@ def guess(size, growth, dt):
     return min(max(size + growth * dt, size / MOST), size * MOST)
 
 
+@kernel
+def look_ahead(kept, growth):
+    """Note how fast a normal force grew in a step, and say how fast it will grow in the next.
+
+    As in this one, and as much faster as this one was than the one before, if that would have been
+    the better guess for this one.
+    """
+    bend = growth - kept[GROWTH]
+    steady = abs(bend - kept[BEND]) < abs(bend)
+    kept[GROWTH], kept[BEND] = growth, bend
+    kept[COMING] = growth + bend if steady else growth
+
+
 @part
 def begin(rod, lumen, wall, state, carried, held, dt, work):
     """Begin a step of length dt at a state, with the wall's forces as they go on from there.
@@ -147,21 +157,20 @@ def begin(rod, lumen, wall, state, carried, held, dt, work):
     """
     friction = wall.friction[0]
     friction.rate[0] = 1.0 / dt
-    read_loads(rod, lumen, wall, carried, held, work)
+    read_loads(rod, lumen, wall, carried, held, friction.pushed, work.no_band)
+    _start(friction, carried, held)
     for i in range(held + 1, state.q.shape[0]):
-        _start_at(friction, carried, i)
-        n, size = normal_at(friction, work.gradient, i)
-        friction.factor[i] = factor_at(friction, row(state.q, i)) if size > 0.0 else 1.0
+        size = pushed_at(friction, i)
         friction.begun[i] = size
-        set_load(friction, state, state, i, n, guess(size, state.contact[i, GROWTH], dt))
+        _take(friction, state, state, i, size, guess(size, state.contact[i, COMING], dt))
 
 
 @kernel
 def recall(friction, state, held):
     """Bring back the contacts of the step that ended at a state, whose tractions it is held by."""
     friction.rate[0] = 1.0
+    _start(friction, state, held)
     for i in range(held + 1, state.q.shape[0]):
-        _start_at(friction, state, i)
         kept = state.contact[i]
         friction.factor[i] = kept[FACTOR]
         n = (kept[NORMAL], kept[NORMAL + 1], kept[NORMAL + 2])
@@ -173,9 +182,8 @@ def reach_at(friction, state, i):
     """Elastic slip at the step's beginning and the surface's way along the wall since (P-29)."""
     n = row(friction.load, i)
     moved = along_wall(n, sub(row(state.q, i), row(friction.start, i)))
-    turned = angle_at(state, i) - friction.start[i, 3]
-    before = (friction.start[i, 4], friction.start[i, 5], friction.start[i, 6])
-    leant = dot(n, sub(spread_at(state, i), before))
+    turned = angle_at(state.q, i) - angle_at(friction.start, i)
+    leant = dot(n, sub(spread_at(state.q, i), spread_at(friction.start, i)))
     rolled = combine(turned, row(friction.turning, i), leant, row(friction.leaning, i))
     way = add(moved, rolled)
     return add(row(friction.anchor, i), way), way
@@ -259,20 +267,32 @@ def _add_leaning(band, r, n, bent, double, both, inside):
 
 
 @kernel
-def read_loads(rod, lumen, wall, state, held, work):
-    """The wall's forces on the nodes, as minus the gradient, into ``work.gradient``."""
-    for i in range(held - 1, state.q.shape[0]):
-        for c in range(4):
-            work.gradient[i, c] = 0.0
-    add_walls(rod, lumen, wall, state, held, work.gradient, work.no_band)
+def read_loads(rod, lumen, wall, state, held, pushed, no_band):
+    """The wall's forces on the nodes, as minus the gradient, into ``pushed``."""
+    clear_rows(pushed, held - 1, state.q.shape[0])
+    add_walls(rod, lumen, wall, state, held, pushed, no_band)
 
 
 @kernel
-def normal_at(friction, gradient, i):
-    """Direction and size of the wall's force on a node; the direction that it had if it is none."""
-    push = row(gradient, i)
-    size = norm(push)
-    return scale(-1.0 / size, push) if size > 0.0 else row(friction.load, i), size
+def pushed_at(friction, i):
+    """Size of the wall's force on a node."""
+    return norm(row(friction.pushed, i))
+
+
+@kernel
+def normal_at(friction, i, size):
+    """Direction of the wall's force on a node, of a size above zero."""
+    return scale(-1.0 / size, row(friction.pushed, i))
+
+
+@part
+def _take(friction, state, ahead, i, size, most):
+    """Take a force of the wall for known: ``size`` where it was read off, ``most`` in the step."""
+    if size > 0.0:
+        friction.factor[i] = factor_at(friction, row(ahead.q, i))
+        set_load(friction, state, ahead, i, normal_at(friction, i, size), most)
+    else:
+        friction.factor[i], friction.load[i, 3] = 1.0, 0.0
 
 
 @kernel
@@ -286,46 +306,59 @@ def gives_way(friction, ahead, i):
 
 
 @kernel
-def known(friction, gradient, ahead, held):
+def known(friction, ahead, held):
     """Whether a step was solved with the normal forces that it ends with (P-31)."""
     nodes = ahead.q.shape[0]
     largest = 0.0
     for i in range(held + 1, nodes):
-        friction.ended[i] = normal_at(friction, gradient, i)[1]
+        friction.ended[i] = pushed_at(friction, i)
         largest = max(largest, friction.ended[i])
     for i in range(held + 1, nodes):
-        n, size = normal_at(friction, gradient, i)
-        before = friction.load[i, 3]
+        size, before = friction.ended[i], friction.load[i, 3]
+        if size == 0.0 and before == 0.0:
+            continue
         if abs(size - before) > SETTLED * max(size, SMALL * largest):
             return False
-        turn = norm(sub(n, row(friction.load, i)))
-        if size > SMALL * largest and friction.static[i] * friction.factor[i] * turn > TURN:
-            return False
+        if size > SMALL * largest:
+            turn = norm(sub(normal_at(friction, i, size), row(friction.load, i)))
+            if friction.static[i] * friction.factor[i] * turn > TURN:
+                return False
         if before > 0.0 and gives_way(friction, ahead, i):
             return False
     return True
 
 
 @part
-def reload(rod, lumen, wall, state, ahead, work):
+def reload(friction, state, ahead, share):
     """Whether the normal forces at the end of a step were known; they are taken for known if not.
+
+    share: by which part of the difference they are changed.
 
     A node that has left its static cone slides for the rest of the step: with two coefficients, one
     that could stick again might go to and fro for ever. ``keep`` decides what it does from there.
     """
-    friction, held = wall.friction[0], state.held[0]
+    held = state.held[0]
     if friction.drag > 0.0:  # a viscous traction does not depend on the normal force
         return True
-    read_loads(rod, lumen, wall, ahead, held, work)
-    if known(friction, work.gradient, ahead, held):
+    if known(friction, ahead, held):
         return True
     for i in range(held + 1, state.q.shape[0]):
         if friction.load[i, 3] > 0.0 and gives_way(friction, ahead, i):
             friction.slides[i] = True
-        n, size = normal_at(friction, work.gradient, i)
-        friction.factor[i] = factor_at(friction, row(ahead.q, i)) if size > 0.0 else 1.0
-        set_load(friction, state, ahead, i, n, size)
+        size = friction.ended[i]
+        if share < 1.0:
+            size = _between(friction, i, share)
+        _take(friction, state, ahead, i, size, size)
     return False
+
+
+@kernel
+def _between(friction, i, share):
+    """Take a force between the one that was known and the one read off; its size."""
+    rest = (share - 1.0) * friction.load[i, 3]
+    for c in range(3):
+        friction.pushed[i, c] = share * friction.pushed[i, c] + rest * friction.load[i, c]
+    return pushed_at(friction, i)
 
 
 @kernel
@@ -337,15 +370,16 @@ def keep(rod, friction, state, ahead):
     for i in range(1, state.q.shape[0]):
         kept = state.contact[i]
         size = friction.load[i, 3] if i > state.held[0] else 0.0
+        if size == 0.0 and kept[LOAD] == 0.0:
+            continue
         kept[LOAD], kept[FACTOR] = size, friction.factor[i]
-        kept[GROWTH] = 0.0
         if size == 0.0:
             for c in range(LOAD):
                 kept[c] = 0.0
-            kept[SLIDES] = 0.0
+            kept[SLIDES] = kept[GROWTH] = kept[BEND] = kept[COMING] = 0.0
             continue
         if friction.drag == 0.0:
-            kept[GROWTH] = (friction.ended[i] - friction.begun[i]) * friction.rate[0]
+            look_ahead(kept, (friction.ended[i] - friction.begun[i]) * friction.rate[0])
         reach, way = reach_at(friction, ahead, i)
         cone, stiffness = cone_at(friction, i)
         slip = (0.0, 0.0, 0.0)
@@ -386,6 +420,13 @@ def tractions(rod, friction, state, forces, scale):
 # A wall holds its friction in a tuple, which is empty where there is none. The length of a tuple is
 # part of its type: kernels for smooth walls are compiled without friction, whose code would slow
 # down the others' steps by a fifth.
+
+
+@kernel
+def note_pushes(frictions, pushes, held):
+    """Keep the wall's forces, which are all that there is of a gradient, if there is friction."""
+    if len(frictions) > 0:
+        copy_rows(pushes, frictions[0].pushed, held - 1, pushes.shape[0])
 
 
 @kernel

@@ -28,7 +28,7 @@ def count_half(movings, model, state, there, work):
     if len(movings) > 0:
         rod, _, wall, lumen = model
         held = state.held[0]
-        read_loads(rod, lumen, wall, there, held, work)
+        read_loads(rod, lumen, wall, there, held, work.gradient, work.no_band)
         for i in range(held + 1, state.q.shape[0]):
             force = add(scale(-1.0, row(work.gradient, i)), held_by(wall.friction, state, i))
             if force != (0.0, 0.0, 0.0):
