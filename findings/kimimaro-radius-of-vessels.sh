@@ -5,7 +5,7 @@
 # runs. scale and const, which say how long a spur must be, have to be set for vessels, as they are meant in nanometres for
 # nerve cells. One expects the parameters left out to stay what they are without any given. They become others: the weight that holds
 # the line to the axis goes from 100000 and exponent 4 to 5000 and exponent 16, and that lets it cut through
-# the outer half: a straight vessel, whose radius is right within 5 percent before, comes with 0.61 to 0.75 of it, however fine
+# the outer half: a straight vessel, whose radius is right within 5 percent before, comes with 0.6 to 0.7 of it, however fine
 # the voxels. Remedy: give all, with pdrf_exponent=4, and compare the radius with the largest of the distance map.
 set -euo pipefail
 work=$(mktemp -d)

@@ -5,7 +5,7 @@
 # a surface is not smooth enough, one lowers the pass band and lets it iterate longer. It keeps what is below the pass band,
 # and a circle of radius R in a mesh of edge h lies near 0.1 (h/R)^2, whatever its roughness. Few iterations
 # have a blunt cut-off, so that one does not see it; more of them do not smooth more, they cut. At 0.01, a vessel of 2
-# voxels' radius is right within 3 percent after 20 iterations, a tenth too thin after 40 and has a fifth of its radius left after
+# voxels' radius is right within 3 percent after 20, a tenth too thin after 40 and has a fifth of its radius left after
 # 100, while the one of 8 voxels beside it stays as it is. A coronary tree keeps its trunk and loses its
 # branches' width. Remedy: a pass band above 0.2 (h/R)^2 of the thinnest vessel, or 20 iterations, and a look at the radius.
 set -euo pipefail
