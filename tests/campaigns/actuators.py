@@ -181,6 +181,11 @@ def stays_free(result: Result) -> str:
     return "free" if done else f"touches, {1e6 * replay.max_tip_force:.2g} µN"
 
 
+def brief(why: str) -> str:
+    """The first sentence of a refusal, without advice."""
+    return why.splitlines()[0].split(": its gradient")[0].split(" It was tried again")[0]
+
+
 def row(case: str, rig: Rig) -> str:
     """A row: of the planned field and, after an arrow, of the currents of least power."""
     refused = ""
@@ -192,9 +197,9 @@ def row(case: str, rig: Rig) -> str:
         said = [result.message for result in (field, power) if result.status != "complete"]
         if not said:
             break
-        refused = refused or said[-1]
+        refused = min(refused or said[-1], *said, key=lambda why: "at its limit" not in why)
     else:
-        return f"| {case} | {rig.name} | {MARGINS[0]:g} | {refused} | | | | | |"
+        return f"| {case} | {rig.name} | all | {brief(refused)} | | | | | |"
 
     def cell(of: Any, digits: str, unit: str) -> str:
         return f"{of(field):{digits}} → {of(power):{digits}} {unit}"
@@ -204,8 +209,8 @@ def row(case: str, rig: Rig) -> str:
         [
             f"| {case} | {rig.name} | {margin:g}",
             cell(lambda result: np.abs(result.inputs).max(), ".1f", "A"),
-            cell(lambda result: result.power.max(), ".3g", "W"),
-            cell(lambda result: result.power.mean(), ".3g", "W"),
+            cell(lambda result: result.power.max(), ".1f", "W"),
+            cell(lambda result: result.power.mean(), ".1f", "W"),
             cell(lambda result: 1e3 * result.peak_field, ".1f", "mT"),
             f"{-100.0 * torque_alone(power, actuator):.0f} %",
             f"{stays_free(field)} → {stays_free(power)} |",
@@ -220,7 +225,7 @@ def magnet_row(case: str) -> str:
     except MagwireError as error:
         return f"| {case} | magnet | {BY_MAGNET:g} | {error} | | | | | |"
     if result.status != "complete":
-        return f"| {case} | magnet | {BY_MAGNET:g} | {result.message} | | | | | |"
+        return f"| {case} | magnet | {BY_MAGNET:g} | {brief(result.message)} | | | | | |"
     way = 1e3 * np.linalg.norm(np.diff(result.inputs[:, :3], axis=0), axis=1).sum()
     peak = 1e3 * result.peak_field
     said = f"{way:.0f} mm of way | | | {peak:.1f} mT | | {stays_free(result)}"
