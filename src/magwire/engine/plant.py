@@ -217,9 +217,9 @@ class Plant:
         Parameters
         ----------
         feed, twist
-            Of the guide at its end [m, rad].
+            Where the guide is at its end [m, rad].
         inputs
-            Of the actuator at its end, shape (m,).
+            What the actuator has at its end, shape (m,).
         dt
             Its length [s].
         inertia
