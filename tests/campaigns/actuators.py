@@ -22,6 +22,7 @@ from magwire import MagwireError, Result
 from magwire.actuate import Actuator
 from magwire.files import parse_toml
 from magwire.navigate.least_cost import prices_of
+from magwire.navigate.schedule import last_tries
 from magwire.scenario import load, parse
 from magwire.scenario.reader import text_of
 from magwire.scenario.schedules import replayed
@@ -210,7 +211,7 @@ def row(case: str, rig: Rig) -> str:
             f"| {case} | {rig.name} | {margin:g}",
             cell(lambda result: np.abs(result.inputs).max(), ".1f", "A"),
             cell(lambda result: result.power.max(), ".1f", "W"),
-            cell(lambda result: result.power.mean(), ".1f", "W"),
+            cell(lambda result: result.power[last_tries(result.feed)].mean(), ".1f", "W"),
             cell(lambda result: 1e3 * result.peak_field, ".1f", "mT"),
             f"{-100.0 * torque_alone(power, actuator):.0f} %",
             f"{stays_free(field)} → {stays_free(power)} |",

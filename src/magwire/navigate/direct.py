@@ -350,17 +350,18 @@ class Direct:
                 self._room(size) / size - NORMALS @ (offset + further),
             ]
         )
-        grows = -sight.eigenvalue_by_input[None] / margin
+        grows = -sight.eigenvalue_by_input[None] * units / margin
         spare = np.array([sight.eigenvalue / margin - 1.0])
         if self.demands.gain_tolerance > 0.0:
             own, u = NORMALS @ sight.offset_by_input / size, self.plant.inputs
-            off, slower = self._off(own), self._off(grows)
+            fading = -sight.eigenvalue_by_input[None] / margin
+            off, slower = self._off(own), self._off(fading)
             sides = np.concatenate([sides, (part * own + off) * units])
             left = self._wider(size) / size - NORMALS @ (offset + further) - off @ u
             room = np.concatenate([room, left])
-            spare = np.append(spare, spare - (part - 1.0) * (grows @ u) - slower @ u)
-            grows = np.vstack([grows, part * grows + slower])
-        rows = np.vstack([sides, grows * units])
+            spare = np.append(spare, spare - (part - 1.0) * (fading @ u) - slower @ u)
+            grows = np.vstack([grows, (part * fading + slower) * units])
+        rows = np.vstack([sides, grows])
         misses = np.zeros((len(rows), 2))
         misses[: len(sides), 0] = misses[len(sides) :, 1] = -1.0
         rows, upper = np.hstack([rows, misses]), np.concatenate([room, spare])
