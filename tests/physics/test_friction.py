@@ -175,6 +175,27 @@ def test_drag_is_work_as_well() -> None:
     assert taken[1] == pytest.approx(10.0 * taken[0], rel=0.1)
 
 
+def test_drag_is_a_force_of_the_record() -> None:
+    """Of a tip that is fed along the wall: coefficient times its share of wire and its speed."""
+    drag, speed = 5.0, 0.02 * L
+    session = paper(Friction(drag=drag), nodes=40).session(motion="quasi-static")
+    session.step(feed_speed=speed, duration=25.0)
+    before = session.record()
+    session.step(feed_speed=speed)
+    record = session.record()
+    moved = (record.position - before.position)[-1] / session.time_step
+    normal = record.contact_force[-1] / np.linalg.norm(record.contact_force[-1])
+    along = moved - (moved @ normal) * normal
+    cell = 0.5 * L / 39
+    force = -drag * cell * along
+    assert np.linalg.norm(record.contact_force[-1]) > 0.0
+    np.testing.assert_allclose(record.friction_force[-1], force, rtol=0.05)
+    direction = session.plant.system.lumen.direction
+    missing, largest = in_balance(record, np.zeros(3), direction)
+    assert abs(missing) < 1e-6 * largest
+    assert np.linalg.norm(force) > 1e-3 * largest
+
+
 def test_resting_wires_remember() -> None:
     """A snapshot has the contacts in it: what is restored goes on as before."""
     session = lying(0.0, Friction(0.5)).session(feed=45e-3)

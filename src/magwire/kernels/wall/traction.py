@@ -25,8 +25,9 @@ from magwire.kernels.wall.friction import (
 )
 from magwire.kernels.wall.gap import gap_value
 
-# Columns of State.contact: elastic slip, the wall's normal, its force, whether the node slides, how
-# far it has slid, the factor of its coefficients, and how fast the force grew in the last step.
+# Columns of State.contact: elastic slip, or with drag the surface's speed, the wall's normal, its
+# force, whether the node slides, how far it has slid, the factor of its coefficients; how fast the
+# force grew in the last step, how much faster than in the one before, and how fast it will grow.
 SLIP, NORMAL, LOAD, SLIDES, SLID, FACTOR, GROWTH, BEND, COMING = 0, 3, 6, 7, 8, 9, 10, 11, 12
 CONTACT = 13
 MOST = 2.0  # times a normal force that it may be guessed to grow, or shrink, in a step
@@ -104,7 +105,7 @@ def set_load(friction, state, ahead, i, n, size):
     kept = state.contact[i]
     before, now = kept[FACTOR] * kept[LOAD], friction.factor[i] * size
     slip = (0.0, 0.0, 0.0)
-    if before > 0.0 and now > 0.0:
+    if before > 0.0 and now > 0.0 and friction.drag == 0.0:
         old = (kept[NORMAL], kept[NORMAL + 1], kept[NORMAL + 2])
         slip = transported((kept[SLIP], kept[SLIP + 1], kept[SLIP + 2]), old, n)
         slip = under_load(slip, before, now)
@@ -175,6 +176,8 @@ def recall(friction, state, held):
         friction.factor[i] = kept[FACTOR]
         n = (kept[NORMAL], kept[NORMAL + 1], kept[NORMAL + 2])
         set_load(friction, state, state, i, n, kept[LOAD])
+        for c in range(3):
+            friction.anchor[i, c] = kept[SLIP + c]
 
 
 @kernel
@@ -193,15 +196,15 @@ def reach_at(friction, state, i):
 def pull_at(rod, friction, state, i):
     """Energy, gradient and Hessian by the way of a node's surface."""
     n = row(friction.load, i)
-    reach, way = reach_at(friction, state, i)
+    reach, _ = reach_at(friction, state, i)
     cone, stiffness = cone_at(friction, i)
     energy, pull, block = 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     if stiffness > 0.0:
         energy, pull, block = potential(reach, n, cone, stiffness)
     if friction.drag > 0.0:
         thick = friction.drag * rod.cell[i] * friction.rate[0]
-        energy += 0.5 * thick * dot(way, way)
-        pull = combine(1.0, pull, thick, way)
+        energy += 0.5 * thick * dot(reach, reach)
+        pull = combine(1.0, pull, thick, reach)
         block = sym_add(block, sym_add(sym_identity(thick), sym_outer(-thick, n)))
     return energy, pull, block
 
@@ -382,7 +385,9 @@ def keep(rod, friction, state, ahead):
             look_ahead(kept, (friction.ended[i] - friction.begun[i]) * friction.rate[0])
         reach, way = reach_at(friction, ahead, i)
         cone, stiffness = cone_at(friction, i)
-        slip = (0.0, 0.0, 0.0)
+        slip = scale(friction.rate[0], way)  # with drag the speed, which the traction follows
+        if friction.drag == 0.0:
+            slip = (0.0, 0.0, 0.0)
         if stiffness > 0.0:
             slip = returned(reach, cone, stiffness)
             state.spent[0] += lost(reach, cone, stiffness)
@@ -395,13 +400,14 @@ def keep(rod, friction, state, ahead):
 
 
 @kernel
-def held_by(frictions, state, i):
-    """Friction of the wall on a node of a state at rest, from its elastic slip."""
+def held_by(frictions, rod, state, i):
+    """Friction of the wall on a node at the end of a step, from its elastic slip or its speed."""
     if len(frictions) == 0:
         return (0.0, 0.0, 0.0)
     else:
         friction, kept = frictions[0], state.contact[i]
         stiffness = friction.static[i] * kept[FACTOR] * kept[LOAD] / friction.slip
+        stiffness += friction.drag * rod.cell[i]
         return scale(-stiffness, (kept[SLIP], kept[SLIP + 1], kept[SLIP + 2]))
 
 

@@ -30,7 +30,7 @@ def count_half(movings, model, state, there, work):
         held = state.held[0]
         read_loads(rod, lumen, wall, there, held, work.gradient, work.no_band)
         for i in range(held + 1, state.q.shape[0]):
-            force = add(scale(-1.0, row(work.gradient, i)), held_by(wall.friction, state, i))
+            force = add(scale(-1.0, row(work.gradient, i)), held_by(wall.friction, rod, state, i))
             if force != (0.0, 0.0, 0.0):
                 x = row(there.q, i)
                 state.spent[1] += 0.5 * dot(force, sub(x, came_from(movings, x)))
