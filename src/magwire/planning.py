@@ -18,9 +18,16 @@ from magwire.lumen import Lumen
 from magwire.lumen.branch import Bend
 from magwire.navigate import tuned
 from magwire.navigate.demands import Demands
-from magwire.navigate.navigator import Navigator, Prescribed
+from magwire.navigate.navigator import (
+    Course,
+    NavigationError,
+    Navigator,
+    Observation,
+    Prescribed,
+)
 from magwire.navigate.schedule import Schedule, last_tries
 from magwire.navigate.tip import TipNavigator
+from magwire.operate.steering import Persistent
 from magwire.simulation import Simulation
 from magwire.status import RunStatus
 from magwire.wire import Wire
@@ -275,6 +282,28 @@ class _Course:
         )
 
 
+@dataclass(frozen=True)
+class _Unasked:
+    """A navigator that is not asked where the tip should be: it would solve for it each time."""
+
+    navigator: Navigator
+
+    @property
+    def notes(self) -> Sequence[str]:
+        """What was tried again."""
+        return getattr(self.navigator, "notes", ())
+
+    def plan(self, observation: Observation, until: float) -> Course:
+        """See ``Navigator.plan``."""
+        return self.navigator.plan(observation, until)
+
+    def go_back(self, seen: Observation, failure: NavigationError) -> float:
+        """See ``Persistent.go_back``."""
+        if isinstance(self.navigator, Persistent):
+            return self.navigator.go_back(seen, failure)
+        raise failure
+
+
 def _travel(nothing: Prospect, course: _Course, demands: Demands) -> Prospect:
     """Plan ahead of a wire that moves with inertia: what it takes is what that wire says.
 
@@ -286,7 +315,8 @@ def _travel(nothing: Prospect, course: _Course, demands: Demands) -> Prospect:
     steering = TipNavigator(
         demands, update_every=every, plan_every=every, attempts=tuned.OUTLET.attempts
     )
-    planned = course.run(course.feed.largest, steering.start(course.planned.system))
+    navigator = _Unasked(steering.start(course.planned.system))
+    planned = course.run(course.feed.largest, navigator)
     if len(planned.feed) == 0 or not planned.feed.max() > 0.0:
         return replace(nothing, reason=planned.message)
     tried, result = last_tries(planned.feed), planned

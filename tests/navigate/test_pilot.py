@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from magwire.navigate import NavigationError, Observation, tuned
-from magwire.navigate.pilot import Knot, Pilot
+from magwire.navigate.pilot import BOUND, Knot, Pilot
 from magwire.navigate.stable import StableNavigator
 from wires import paper_wire, simulation
 
@@ -57,3 +58,24 @@ def test_a_wire_that_only_the_field_holds_is_not_fed_in_halves(
     monkeypatch.setattr(Pilot, "_step", at_most(0.9e-3))
     with pytest.raises(NavigationError, match="too far"):
         pilot.advance(last, last.feed + 1e-3)
+
+
+@pytest.mark.parametrize(("spare", "tries"), [(1.5, tuned.PILOT.tries), (1.0, BOUND)])
+def test_at_its_limit_a_field_makes_no_wire_stiffer(
+    spare: float, tries: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pilot, last = in_bend()
+    demands = pilot.programme.demands
+    limit = spare * float(np.linalg.norm(last.flux)) / demands.weakening
+    pilot.programme = replace(pilot.programme, demands=replace(demands, max_field=limit))
+    tried: list[float] = []
+
+    def lost(feed: float, last: Knot, moved: float) -> None:
+        tried.append(feed)
+        raise NavigationError("lost")
+
+    monkeypatch.setattr(pilot, "_reach", lost)
+    monkeypatch.setattr(pilot, "_improve", lambda view, before, moved: view)
+    with pytest.raises(NavigationError, match="lost"):
+        pilot._step(last, last.feed + 0.25e-3)
+    assert len(tried) == tries

@@ -10,15 +10,17 @@ from magwire.kernels.arrays import Array, Motion
 from magwire.kernels.assembly import FIRST, assemble
 from magwire.kernels.band import WIDTH, factor, solve
 from magwire.kernels.hinge import material_frame
-from magwire.kernels.magnetics import torque_gradient, torque_hessian
+from magwire.kernels.magnetics import torque_gradient
 from magwire.kernels.newton import take_step
-from magwire.kernels.vectors import dot, row
+from magwire.kernels.sources.steer import steer
+from magwire.kernels.vectors import row
 from magwire.kernels.wall.push import press_tube
 
 SWEEPS = 60  # of inverse iteration, at most
 SHARE = 0.03  # of every direction in the first guess of a mode
 SETTLED = 1e-9  # relative change of the eigenvalue at which they end
-PROBE = 1e-5  # step along the mode for the change of the stiffness, in wire lengths
+PROBE = 1e-5  # step along a sensitivity for the change of the stiffness, in wire lengths
+STIFF = 1.0  # least sensitivity [1/T] for that: a field along a straight wire moves nothing
 
 
 class Linear(NamedTuple):
@@ -78,15 +80,14 @@ def lumped(rod, held, r):
 
 
 @kernel
-def add_product(band, x, factor, into, last):
-    """Add a factor times K x to ``into``, from the assembled band."""
+def quotient(band, mode, last):
+    """Stiffness of a mode, mode.K.mode, from the assembled band."""
+    total = 0.0
     for j in range(FIRST, last):
-        value = band[j, 0] * x[j]
-        scaled = factor * x[j]
-        for k in range(1, WIDTH - 1):
-            value += band[j, k] * x[j + k]
-            into[j + k] += band[j, k] * scaled
-        into[j] += factor * value
+        total += band[j, 0] * mode[j] * mode[j]
+        for k in range(1, WIDTH):
+            total += 2.0 * band[j, k] * mode[j + k] * mode[j]
+    return total
 
 
 @part
@@ -144,46 +145,6 @@ def respond(model, state, mouth, work, linear):
     return True
 
 
-@part
-def bend(model, state, mouth, work, last):
-    """Change of stiffness times mode along the mode itself, by a central difference.
-
-    The mode is in ``work.step``, the change ends in ``work.way``. Third derivatives of the energy
-    are symmetric: along any way v, the mode's stiffness changes by v . ``work.way``.
-    """
-    size = 0.0
-    for r in range(FIRST, last):
-        size = max(size, abs(work.step[r]))
-        work.way[r] = 0.0
-    probe = PROBE / size
-    still = Motion(0.0, work.target)
-    for sign in (-1.0, 1.0):
-        take_step(state, work.spare, mouth.held, sign * probe, work.step)
-        assemble(model, work.spare, mouth, still, work.gradient, work.band)
-        add_product(work.band, work.step, 0.5 * sign / probe, work.way, last)
-
-
-@part
-def turned_by(rod, state, held, axis, mode):
-    """Change of a mode's stiffness by one component of a uniform field, at the same place."""
-    direction = (1.0 if axis == 0 else 0.0, 1.0 if axis == 1 else 0.0, 1.0 if axis == 2 else 0.0)
-    total = 0.0
-    for j in range(held, state.length.shape[0]):
-        m = row(rod.moment, j)
-        if m[0] == 0.0 and m[1] == 0.0 and m[2] == 0.0:
-            continue
-        t = row(state.tangent, j)
-        m1, m2 = material_frame(row(state.director, j), t, state.q[j, 3])
-        h, edge_theta, theta = torque_hessian(m, m1, m2, t, 1.0 / state.length[j], direction)
-        r = 4 * (j - held + 1)
-        x, y, z = mode[r + 4] - mode[r], mode[r + 5] - mode[r + 1], mode[r + 6] - mode[r + 2]
-        turn = mode[r + 3]
-        total += h[0] * x * x + h[3] * y * y + h[5] * z * z
-        total += 2.0 * (h[1] * x * y + h[2] * x * z + h[4] * y * z)
-        total += 2.0 * turn * dot(edge_theta, (x, y, z)) + theta * turn * turn
-    return total
-
-
 @kernel
 def linearise(model, state, mouth, work, linear):
     """Linearise a stable equilibrium about its uniform field.
@@ -193,17 +154,28 @@ def linearise(model, state, mouth, work, linear):
     """
     if not respond(model, state, mouth, work, linear):
         return 0.0
-    rod, held = model[0], mouth.held
+    rod, field, _, _ = model
+    held = mouth.held
+    still = Motion(0.0, work.target)
     last = 4 * (state.q.shape[0] - held + 1) - 1
     mix(linear.mode, last)
     value = slowest_mode(work.band, rod, held, linear.mode, last)
-    for r in range(last + WIDTH):
-        work.step[r] = linear.mode[r] if FIRST <= r < last else 0.0
-    bend(model, state, mouth, work, last)
     for axis in range(3):
-        slope = turned_by(rod, state, held, axis, work.step)
+        size = STIFF
         for r in range(FIRST, last):
-            slope += work.way[r] * linear.moves[axis, r]
+            size = max(size, abs(linear.moves[axis, r]))
+        probe = PROBE / size
+        slope = 0.0
+        for sign in (-1.0, 1.0):
+            for r in range(last + 1):
+                work.step[r] = linear.moves[axis, r] if FIRST <= r < last else 0.0
+            take_step(state, work.spare, held, sign * probe, work.step)
+            for c in range(3):
+                work.inputs[c] = state.inputs[c] + (sign * probe if c == axis else 0.0)
+            steer(field.sources, work.inputs, field.strength)
+            assemble(model, work.spare, mouth, still, work.gradient, work.band)
+            steer(field.sources, state.inputs, field.strength)
+            slope += sign * quotient(work.band, linear.mode, last) / (2.0 * probe)
         linear.slope[axis] = slope
     return value
 

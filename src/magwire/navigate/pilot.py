@@ -23,6 +23,8 @@ from magwire.navigate.programme import Programme
 
 Array = NDArray[np.float64]
 
+BOUND = 2  # tries of a feed before which the field is at its limit: stiffness takes more of it
+AT_LIMIT = 0.98  # of the largest field, from which on it is there
 ROUND_OFF = 1e-4  # a rise of the merit by less does not matter
 
 
@@ -105,7 +107,7 @@ class Pilot:
         """Feed the model on at once, after making it as stiff as it takes."""
         model, moved = self.model, abs(feed - last.feed)
         model.return_to(last.snapshot)
-        for _ in range(tuned.PILOT.tries):
+        for tried in range(1, tuned.PILOT.tries + 1):
             try:
                 view = self._reach(feed, last, moved)
             except NavigationError as failure:
@@ -114,7 +116,7 @@ class Pilot:
                 demanded = self.programme.demands.stability_margin
                 self._margin = max(demanded, tuned.PILOT.relaxing * self._margin)
                 return [last, Knot(feed, model.remember(), view)]
-            if last.view is None:
+            if last.view is None or (tried >= BOUND and self._at_limit(last)):
                 break
             self._margin = self._stiffer(last.view.eigenvalue)
             model.return_to(last.snapshot)
@@ -127,6 +129,10 @@ class Pilot:
         """The margin with which to try again after the wire was lost with this eigenvalue."""
         faster = tuned.PILOT.stiffer if self._is_firm(eigenvalue) else 2.0
         return max(faster * self._margin, tuned.PILOT.stiffer * eigenvalue)
+
+    def _at_limit(self, knot: Knot) -> bool:
+        """Whether a planned field is as large as it may be."""
+        return norm(knot.flux) >= AT_LIMIT * self.programme.demands.largest_weakest
 
     def _is_firm(self, eigenvalue: float) -> bool:
         """Whether the wall makes the wire stiff."""
