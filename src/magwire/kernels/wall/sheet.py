@@ -19,9 +19,12 @@ from typing import NamedTuple
 
 from numpy.typing import NDArray
 
-from magwire.kernels._jit import kernel
+from magwire.kernels._jit import kernel, part
 from magwire.kernels.lanes import first, fourth, load, second, third
 from magwire.kernels.vectors import combine, dot
+
+# What is small here is a ``part``: numba does not inline a kernel that it loads from its cache, and
+# whichever command asks a wall of triangles first would decide how fast all later ones step.
 
 BRICK = 4
 """Cells along the edge of a brick."""
@@ -80,7 +83,7 @@ class Sheet(NamedTuple):
     steep: float
 
 
-@kernel
+@part
 def find(sheet, x, y, z):
     """Where a point is.
 
@@ -127,7 +130,7 @@ def find(sheet, x, y, z):
     return row, (i * WIDE + j) * WIDE + k, (u - i, v - j, w - k), finer, end, 0.0
 
 
-@kernel
+@part
 def weights(t):
     """The four cubic B-splines at t from 0 to 1, their first and their second derivatives."""
     r = 1.0 - t
@@ -141,19 +144,19 @@ def weights(t):
     return value, rise, (r, 3.0 * t - 2.0, 3.0 * r - 2.0, t)
 
 
-@kernel
+@part
 def mix(w, a, b, c, d):
     """Sum of four numbers by their weights."""
     return w[0] * a + w[1] * b + w[2] * c + w[3] * d
 
 
-@kernel
+@part
 def along_z(w, v):
     """Sum of the four numbers of a register by the weights along z."""
     return (w[0] * first(v) + w[1] * second(v)) + (w[2] * third(v) + w[3] * fourth(v))
 
 
-@kernel
+@part
 def lines(c, at):
     """The four by four coefficients in a plane of y and z, those along z in a register."""
     return (
@@ -164,7 +167,7 @@ def lines(c, at):
     )
 
 
-@kernel
+@part
 def plane(c, at, v):
     """Sums along y in a plane."""
     a, b, p, q = lines(c, at)
@@ -181,7 +184,7 @@ def spline_value(c, at, t):
     return along_z(w, mix(u, a, b, p, q))
 
 
-@kernel
+@part
 def plane_jet(c, at, y):
     """Sums along y in a plane, with two derivatives."""
     a, b, p, q = lines(c, at)
@@ -210,7 +213,7 @@ def spline_jet(c, at, t):
     return along_z(z[0], value), n, h
 
 
-@kernel
+@part
 def past_end(ends, end, x, y, z):
     """How far a point is past the plane of an end, that plane's normal and the end's radius."""
     t = (ends[end, 3], ends[end, 4], ends[end, 5])
@@ -218,7 +221,7 @@ def past_end(ends, end, x, y, z):
     return axial, t, ends[end, MOUTH_RADIUS]
 
 
-@kernel
+@part
 def opened(sheet, g, axial, radius):
     """The gap in a mouth past its plane, and what is left of it at least, from the wall's g."""
     past = axial / radius
