@@ -23,9 +23,6 @@ from magwire.kernels._jit import kernel, part
 from magwire.kernels.lanes import first, fourth, load, second, third
 from magwire.kernels.vectors import combine, dot
 
-# What is small here is a ``part``: numba does not inline a kernel that it loads from its cache, and
-# whichever command asks a wall of triangles first would decide how fast all later ones step.
-
 BRICK = 4
 """Cells along the edge of a brick."""
 WIDE = BRICK + 3
