@@ -18,7 +18,7 @@ from magwire.engine.rubbing import Rubbing
 from magwire.engine.sampling import SAMPLINGS, mismatch, sample, unsampled_stiffness
 from magwire.engine.status import Status
 from magwire.engine.system import System
-from magwire.field import FieldSource, UniformField
+from magwire.field import FieldSource
 from magwire.kernels.arrays import Field, Mouth, State, Tube
 from magwire.kernels.body import (
     Body,
@@ -404,10 +404,7 @@ class Plant:
         system, scales, sheet = self.system, self.system.scales, self._sheet
         survey(self._body, scales.length, scales.force)
         numbers, tip, flux = sheet.numbers, sheet.position[-1:], sheet.flux_density
-        if isinstance(self.source, UniformField):  # at every record, without a call
-            flux += self.source.flux_density
-        else:
-            flux += self.source.at(tip)[0][0]
+        flux += self.source.at(tip)[0][0]
         if math.isnan(numbers[TIP_OFFSET]):
             numbers[TIP_OFFSET] = float(system.path.offset(tip)[0])
         numbers[TIME] = self.time
