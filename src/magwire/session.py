@@ -66,7 +66,6 @@ class Session:
         self._due, self._recorded = 0.0, -1.0
         self.assist: Assist | None = None
         self._length = plant.system.wire.length
-        self._inputs = plant.inputs
         self._record_if_due()
 
     def __enter__(self) -> Self:
@@ -126,10 +125,12 @@ class Session:
             for _ in range(parts):
                 self.advance((self._assisted(each),))
             return
-        plant, given, dt = self.plant, self._inputs, self.time_step
+        plant, dt = self.plant, self.time_step
+        given = plant.wanted
         try:
-            feed = min(max(plant.feed + feed_speed * dt, 0.0), self._length)
-            twist = plant.twist + twist_rate * dt
+            feed, twist = plant.guided
+            feed = min(max(feed + feed_speed * dt, 0.0), self._length)
+            twist += twist_rate * dt
         except TypeError:
             Command(feed_speed, twist_rate, inputs)  # says which it is
             raise
@@ -138,9 +139,10 @@ class Session:
         given[:] = plant.state.inputs if inputs is None else inputs
         if not math.isfinite(feed_speed + twist_rate + sum(given.tolist())):
             Command(feed_speed, twist_rate, given)  # says which it is
-        if not plant.step(feed, twist, given, dt, inertia=self._inertia):
+        if not plant.step(feed, twist, dt, inertia=self._inertia):
             raise self._failed()
-        self._record_if_due()
+        if self._recording is not None:
+            self._record_if_due()
 
     def advance(self, commands: Sequence[Command]) -> None:
         """Carry out commands one after the other, in as few calls of compiled code as can be.
