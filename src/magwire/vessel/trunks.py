@@ -7,12 +7,11 @@ out of it into the trunk, sharply, and is narrow there; the trunk itself goes st
 from __future__ import annotations
 
 from collections.abc import Iterable
-from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 
-from magwire.vessel.balls import Original, wall
+from magwire.vessel.balls import Balls, Original, wall
 from magwire.vessel.files.drawing import Array, Indices
 from magwire.vessel.network import Network
 from magwire.vessel.smooth import STEP, smooth
@@ -23,7 +22,7 @@ COVERED = 0.01  # part of it that does not count: there the wall is that of a pa
 OVERLAP = 6  # points that a trunk has in common with such walls, one and a half radii
 REACH = 16.0  # how far from the fork a trunk is followed, over the radius
 FROM, TO = 1.0, 3.0  # where an arm's width is taken, over the radius
-AS_WIDE = 0.8  # radius of a stump over that of the other arm of its trunk, at least
+AS_WIDE = 0.9  # radius of an arm over that of the widest one, from which it is about as wide
 
 
 class Trunks(NamedTuple):
@@ -77,13 +76,13 @@ def trunks(
         if before[node] >= 0:
             after.setdefault(int(before[node]), []).append(node)
     paces = _paces(after, steps)
-    kept: list[Array] = []
-    notes: list[str] = []
+    every, kept, notes = wall(paths), list[Array](), list[str]()
     for fork in sorted(node for node in after if len(after[node]) > 1):
         for nodes in _left_out(network, fork, (before, after, paces), used):
             found = smooth(network.points[nodes], network.radius[nodes], smoothing, original)
             balls = np.column_stack([found.points, found.radius])
-            part = _added(balls, wall([*paths, *kept])) if found.whole else None
+            near = [wall([part]) for part in kept if _meet(part, balls)]
+            part = _added(balls, [every, *near]) if found.whole else None
             if part is not None:
                 kept.append(part)
                 notes.append(
@@ -131,17 +130,15 @@ def _left_out(
     arms = [_down(network, fork, child, (after, paces), used) for child in after[fork]]
     if before[fork] >= 0:
         arms.insert(0, _up(network, fork, before, paces))
-    widest = max(arm.radius for arm in arms)
+    widest = max(arms, key=lambda arm: arm.radius)
+    if arms[0].radius >= AS_WIDE * widest.radius:
+        widest = arms[0]  # from there all others are paths, but for stumps
     found = []
-    for one, other in combinations(arms, 2):
-        if max(one.radius, other.radius) < widest:
-            continue
-        path = one is arms[0] and before[fork] >= 0 and not other.stump
-        thin = (one.stump or other.stump) and (
-            min(one.radius, other.radius) < AS_WIDE * max(one.radius, other.radius)
-        )
-        if not path and not thin:
-            found.append([*one.nodes[::-1], fork, *other.nodes])
+    for arm in arms:
+        path = widest is arms[0] and before[fork] >= 0 and not arm.stump
+        thin = (arm.stump or widest.stump) and arm.radius < AS_WIDE * widest.radius
+        if arm is not widest and not path and not thin:
+            found.append([*widest.nodes[::-1], fork, *arm.nodes])
     return found
 
 
@@ -183,9 +180,17 @@ def _radius(network: Network, fork: int, nodes: list[int], paces: Array) -> floa
     return float(np.median(radius[some])) if some.any() else float(radius[-1])
 
 
-def _added(balls: Array, walls: Original) -> Array | None:
+def _meet(one: Array, other: Array) -> bool:
+    """Whether balls, shape (n, 4) [m] each, may overlap."""
+    low, high = ((one[:, :3] + s * one[:, 3:]) for s in (-1.0, 1.0))
+    return bool(np.all(low.min(axis=0) <= other[:, :3].max(axis=0))) and bool(
+        np.all(high.max(axis=0) >= other[:, :3].min(axis=0))
+    )
+
+
+def _added(balls: Array, walls: list[Balls]) -> Array | None:
     """The part of a trunk that adds to walls, and some more on both sides; None if none does."""
-    gain = 1.0 - walls.depth(balls[:, :3]) / balls[:, 3]
+    gain = 1.0 - np.max([each.depth(balls[:, :3]) for each in walls], axis=0) / balls[:, 3]
     if gain.max() < GAIN:
         return None
     here = np.flatnonzero(gain > COVERED)
