@@ -25,6 +25,7 @@ from magwire.lumen.tree import (
     Tree,
     Walls,
     check_courses,
+    deepest,
     grown,
     missing,
     refusal,
@@ -117,7 +118,7 @@ def _trunk(balls: Array, walls: Walls, width: float | None) -> Branch:
     width = BLEND * _narrowest(made, others) if width is None else width
     radius, is_open = made[:, 3].copy(), [False, False]
     for end, (at, along) in enumerate(((0, arcs), (-1, arcs[-1] - arcs))):
-        lost = missing(made[at], others, width)
+        lost = missing(float(made[at, 3]), deepest(made[at], others)[0], width)
         is_open[end] = lost > BURIED * made[at, 3]
         if not is_open[end]:
             radius -= run_in(lost, made[at, 3], along)

@@ -87,11 +87,11 @@ class Trace:
         """Distance, arc parameter and radius at the nearest point, shapes (n,) [m]."""
         s = self.arcs[self._samples.query(points)[1]]
         for _ in range(4):  # Newton's method on (c - x).c' = 0
-            away = self.curve.at(s)[:, :3] - points
-            first, second = self.curve.at(s, 1)[:, :3], self.curve.at(s, 2)[:, :3]
+            ball, first, second = (each[:, :3] for each in self.curve.jet(s))
+            away = ball - points
             slope = np.sum(first * first, axis=1) + np.sum(away * second, axis=1)
             step = np.sum(away * first, axis=1) / np.maximum(slope, 0.1)
-            s = np.clip(s - step, 0.0, self.curve.length)
+            s = np.minimum(np.maximum(s - step, 0.0), self.curve.length)
         ball = self.curve.at(s)
         return np.linalg.norm(ball[:, :3] - points, axis=1), s, ball[:, 3]
 
@@ -379,8 +379,9 @@ def _run_in(name: str, arcs: Array, balls: Array, others: list[Trace], width: fl
     radius grows to its own.
     """
     wide = float(balls[0, 3])
-    _check_width(name, wide, _deepest(balls[0], others)[1])
-    lost = missing(balls[0], others, width)
+    gap, parent = deepest(balls[0], others)
+    _check_width(name, wide, parent)
+    lost = missing(wide, gap, width)
     if lost > 0.75 * wide:
         raise InputError(
             "Input blend of Lumen.tree must be smaller than the branches are wide; received "
@@ -389,9 +390,9 @@ def _run_in(name: str, arcs: Array, balls: Array, others: list[Trace], width: fl
     return np.asarray(balls[:, 3] - run_in(lost, wide, arcs))
 
 
-def missing(ball: Array, others: Sequence[Trace], width: float) -> float:
-    """What a ball, shape (4,), has to lose for a blend with other tubes not to see it [m]."""
-    return max(float(ball[3]) - (_deepest(ball, others)[0] - 1.001 * width), 0.0)
+def missing(wide: float, gap: float, width: float) -> float:
+    """What a ball that is so deep in other tubes has to lose for a blend not to see it [m]."""
+    return max(wide - (gap - 1.001 * width), 0.0)
 
 
 def run_in(lost: float, wide: float, arcs: Array) -> Array:
@@ -399,7 +400,7 @@ def run_in(lost: float, wide: float, arcs: Array) -> Array:
     return np.asarray(lost * (1.0 - _ramp(arcs / max(RUN_IN * wide, STEEPNESS * lost))))
 
 
-def _deepest(ball: Array, others: Sequence[Trace]) -> tuple[float, float]:
+def deepest(ball: Array, others: Sequence[Trace]) -> tuple[float, float]:
     """How deep the centre of a ball, shape (4,), is in other tubes, and the radius there [m]."""
     found = [other.nearest(ball[None, :3]) for other in others]
     gaps = [float(radius[0] - distance[0]) for distance, _, radius in found]
@@ -442,8 +443,10 @@ def check_courses(walls: Walls) -> None:
                 )
         end = trace.balls[-1:, :3]
         for other in walls.near(end, 0.0):
+            if other is trace:
+                continue
             distance, _, radius = other.nearest(end)
-            if other is not trace and distance[0] < BESIDE * radius[0]:
+            if distance[0] < BESIDE * radius[0]:
                 raise refusal(
                     f"the outlet '{trace.name}' lies inside of '{other.name}', {distance[0]:.6g} m "
                     f"from its centreline, with radius {radius[0]:.6g} m there"

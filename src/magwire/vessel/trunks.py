@@ -32,15 +32,75 @@ class Trunks(NamedTuple):
     notes: tuple[str, ...]
 
 
-class _Arm(NamedTuple):
-    """A way out of a fork: its points, the radius some way along it [m], and whether it is a stump.
+class _Tree(NamedTuple):
+    """A network as paths from its entrance see it.
 
-    A stump has an end to which no path leads.
+    Attributes
+    ----------
+    network
+        The network [m].
+    before, after
+        The point before each one, shape (n,), negative where there is none, and those after it.
+    paces
+        Arc length from the entrance in radii, shape (n,).
+    used
+        The points on paths that are there; the others are on stumps.
     """
 
-    nodes: list[int]
-    radius: float
-    stump: bool
+    network: Network
+    before: Indices
+    after: dict[int, list[int]]
+    paces: Array
+    used: set[int]
+
+    def up(self, fork: int, reach: float) -> list[int]:
+        """Points from a fork towards the entrance, over some radii."""
+        nodes = [int(self.before[fork])]
+        while self.before[nodes[-1]] >= 0 and self.paces[fork] - self.paces[nodes[-1]] <= reach:
+            nodes.append(int(self.before[nodes[-1]]))
+        return nodes
+
+    def down(self, fork: int, child: int, reach: float) -> list[int]:
+        """Points from a fork on, over some radii; at further forks along the widest way."""
+        nodes = [child]
+        while nodes[-1] in self.after and self.paces[nodes[-1]] - self.paces[fork] <= reach:
+            nodes.append(max(self.after[nodes[-1]], key=self._rank))
+        return nodes
+
+    def _rank(self, node: int) -> tuple[bool, float]:
+        return node in self.used, float(self.network.radius[node])
+
+    def radius(self, fork: int, nodes: list[int]) -> float:
+        """The radius of an arm, some way along it [m]."""
+        along = np.abs(self.paces[nodes] - self.paces[fork])
+        some = (along >= FROM) & (along <= TO)
+        radius = self.network.radius[nodes]
+        return float(np.median(radius[some])) if some.any() else float(radius[-1])
+
+    def left_out(self, fork: int) -> list[list[int]]:
+        """The ways from a fork's widest arm into each other one that no path takes, as points."""
+        others = list(self.after[fork])
+        wide = {child: self.radius(fork, self.down(fork, child, TO)) for child in others}
+        widest, came = (
+            max(others, key=lambda child: wide[child]),
+            self.radius(fork, self.up(fork, TO)),
+        )
+        if came >= AS_WIDE * wide[widest]:  # from there all others are paths, but for stumps
+            first, width = self.up(fork, REACH), came
+            others = [child for child in others if child not in self.used]
+        else:
+            first, width = self._arm(fork, widest), wide[widest]
+            others.remove(widest)
+        paths = self.used.issuperset([*others, first[0]])
+        return [
+            [*first[::-1], fork, *self._arm(fork, child)]
+            for child in others
+            if paths or wide[child] >= AS_WIDE * width
+        ]
+
+    def _arm(self, fork: int, child: int) -> list[int]:
+        """An arm as far as it counts: a stump, which no path follows, to its end."""
+        return self.down(fork, child, REACH if child in self.used else np.inf)
 
 
 def trunks(
@@ -75,21 +135,23 @@ def trunks(
     for node in sorted(_used(before, network.ends.values())):
         if before[node] >= 0:
             after.setdefault(int(before[node]), []).append(node)
-    paces = _paces(after, steps)
-    every, kept, notes = wall(paths), list[Array](), list[str]()
-    for fork in sorted(node for node in after if len(after[node]) > 1):
-        for nodes in _left_out(network, fork, (before, after, paces), used):
-            found = smooth(network.points[nodes], network.radius[nodes], smoothing, original)
-            balls = np.column_stack([found.points, found.radius])
-            near = [wall([part]) for part in kept if _meet(part, balls)]
-            part = _added(balls, [every, *near]) if found.whole else None
-            if part is not None:
-                kept.append(part)
-                notes.append(
-                    f"The trunk of radius {long(float(part[:, 3].max()))} near "
-                    f"{place(network.points[fork])} stays, although no path runs straight "
-                    "through it."
-                )
+    tree = _Tree(network, before, after, _paces(after, steps), used)
+    forks = sorted(node for node in after if len(after[node]) > 1 and before[node] >= 0)
+    tried = [(fork, nodes) for fork in forks for nodes in tree.left_out(fork)]
+    walls = [wall(paths)] if tried else []
+    kept: list[Array] = []
+    notes: list[str] = []
+    for fork, nodes in tried:
+        found = smooth(network.points[nodes], network.radius[nodes], smoothing, original)
+        balls = np.column_stack([found.points, found.radius])
+        near = [wall([part]) for part in kept if _meet(part, balls)]
+        part = _added(balls, [*walls, *near]) if found.whole else None
+        if part is not None:
+            kept.append(part)
+            notes.append(
+                f"The trunk of radius {long(float(part[:, 3].max()))} near "
+                f"{place(network.points[fork])} stays, although no path runs straight through it."
+            )
     return Trunks(tuple(kept), tuple(notes))
 
 
@@ -117,67 +179,6 @@ def _paces(after: dict[int, list[int]], steps: Array) -> Array:
             paces[following] = paces[node] + steps[following]
             ahead.append(following)
     return paces
-
-
-def _left_out(
-    network: Network,
-    fork: int,
-    tree: tuple[Indices, dict[int, list[int]], Array],
-    used: set[int],
-) -> list[list[int]]:
-    """The ways from a fork's widest arm into each other one that no path takes, as points."""
-    before, after, paces = tree
-    arms = [_down(network, fork, child, (after, paces), used) for child in after[fork]]
-    if before[fork] >= 0:
-        arms.insert(0, _up(network, fork, before, paces))
-    widest = max(arms, key=lambda arm: arm.radius)
-    if arms[0].radius >= AS_WIDE * widest.radius:
-        widest = arms[0]  # from there all others are paths, but for stumps
-    found = []
-    for arm in arms:
-        path = widest is arms[0] and before[fork] >= 0 and not arm.stump
-        thin = (arm.stump or widest.stump) and arm.radius < AS_WIDE * widest.radius
-        if arm is not widest and not path and not thin:
-            found.append([*widest.nodes[::-1], fork, *arm.nodes])
-    return found
-
-
-def _up(network: Network, fork: int, before: Indices, paces: Array) -> _Arm:
-    """The arm towards the entrance."""
-    nodes: list[int] = []
-    node = int(before[fork])
-    while node >= 0:
-        nodes.append(node)
-        if paces[fork] - paces[node] > REACH:
-            break
-        node = int(before[node])
-    return _Arm(nodes, _radius(network, fork, nodes, paces), False)
-
-
-def _down(
-    network: Network,
-    fork: int,
-    child: int,
-    tree: tuple[dict[int, list[int]], Array],
-    used: set[int],
-) -> _Arm:
-    """An arm away from the entrance; at further forks it follows the widest way."""
-    after, paces = tree
-    nodes = [child]
-    while paces[nodes[-1]] - paces[fork] <= REACH:
-        onward = after.get(nodes[-1], [])
-        if not onward:
-            break
-        nodes.append(max(onward, key=lambda node: (node in used, network.radius[node])))
-    return _Arm(nodes, _radius(network, fork, nodes, paces), child not in used)
-
-
-def _radius(network: Network, fork: int, nodes: list[int], paces: Array) -> float:
-    """The radius of an arm, some way along it [m]."""
-    along = np.abs(paces[nodes] - paces[fork])
-    some = (along >= FROM) & (along <= TO)
-    radius = network.radius[nodes]
-    return float(np.median(radius[some])) if some.any() else float(radius[-1])
 
 
 def _meet(one: Array, other: Array) -> bool:
