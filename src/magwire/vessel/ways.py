@@ -17,6 +17,7 @@ from magwire.vessel.balls import Original, wall
 from magwire.vessel.files.drawing import Array, Indices
 from magwire.vessel.network import Network
 from magwire.vessel.smooth import STEP, Smoothed, smooth
+from magwire.vessel.trunks import trunks
 from magwire.vessel.words import long, place
 
 SPUR = 1.5  # shortest branch that counts, over the radius where it leaves
@@ -71,10 +72,14 @@ class Tube:
 
 
 class Ways(NamedTuple):
-    """The paths by the names of their ends, and what was left out, a sentence each."""
+    """The paths by the names of their ends, and what was left out, a sentence each.
+
+    With the balls of the trunks that are wall, but no path, shape (n, 4) [m] each.
+    """
 
     tubes: dict[str, Tube]
     notes: tuple[str, ...]
+    trunks: tuple[Array, ...] = ()
 
 
 def ways(
@@ -116,8 +121,10 @@ def ways(
             )
         tubes[name] = made[1]
         owner.update((node, made[1]) for node in nodes if node not in owner)
-    tubes = _together(tubes, original)
-    return Ways(tubes, (*notes, *_narrowed(tubes)))
+    led = [ends[name] for name in tubes]
+    stay = trunks(network, (before, step), led, list(_balls(tubes)), (smoothing, original))
+    tubes = _together(tubes, stay.balls, original)
+    return Ways(tubes, (*notes, *stay.notes, *_narrowed(tubes)), stay.balls)
 
 
 def _own(end: int, before: Indices, owner: dict[int, Tube]) -> list[int]:
@@ -173,11 +180,13 @@ def _tube(
     )
 
 
-def _together(tubes: dict[str, Tube], original: Original) -> dict[str, Tube]:
+def _together(
+    tubes: dict[str, Tube], stay: tuple[Array, ...], original: Original
+) -> dict[str, Tube]:
     """The paths with what the vessel loses to them: in a wide trunk a narrow way loses nothing."""
     if not tubes:
         return tubes
-    every = wall([np.column_stack([tube.points, tube.radius]) for tube in tubes.values()])
+    every = wall([*_balls(tubes), *stay])
     made: dict[Tube, Tube] = {}
     for tube in tubes.values():
         lost = tube.narrowed.copy()
@@ -189,6 +198,12 @@ def _together(tubes: dict[str, Tube], original: Original) -> dict[str, Tube]:
         parent = None if tube.parent is None else made[tube.parent]
         made[tube] = replace(tube, parent=parent, narrowed=lost)
     return {name: made[tube] for name, tube in tubes.items()}
+
+
+def _balls(tubes: dict[str, Tube]) -> Iterator[Array]:
+    """Balls of what each path has of its own, shape (n, 4) [m]."""
+    for tube in tubes.values():
+        yield np.column_stack([tube.points, tube.radius])
 
 
 def _narrowed(tubes: dict[str, Tube]) -> list[str]:
