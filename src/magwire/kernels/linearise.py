@@ -11,8 +11,8 @@ from magwire.kernels._jit import kernel, part
 from magwire.kernels.arrays import Array, Motion
 from magwire.kernels.assembly import FIRST, assemble
 from magwire.kernels.band import WIDTH, factor, solve
-from magwire.kernels.hinge import material_frame
 from magwire.kernels.groups import total
+from magwire.kernels.hinge import material_frame
 from magwire.kernels.lanes import LANES, four, load, splat
 from magwire.kernels.magnetics import torque_gradient, torque_hessian
 from magwire.kernels.newton import copy_band, take_step
