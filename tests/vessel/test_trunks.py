@@ -12,6 +12,7 @@ import magwire as mw
 from magwire.cli import main
 from magwire.kernels.wall.gap import gap_many
 from magwire.vessel import Vessel
+from magwire.vessel.balls import Balls
 
 DATA = Path(__file__).parents[1] / "data" / "vessels"
 Array = NDArray[np.float64]
@@ -153,3 +154,63 @@ def test_trunks_go_with_the_files_that_are_written(ending: str, tmp_path: Path) 
         made = mw.load_scenario(tmp_path / "run.toml").lumen.build()
         points = np.random.default_rng(0).uniform(-0.03, 0.03, (500, 3))
         assert np.array_equal(made.gap(points), vessel.lumen().gap(points), equal_nan=True)
+
+
+def fork(path: Path, ways: list[tuple[float, float, float]], length: float, narrow: float) -> Path:
+    """An SWC file of a trunk of 2 mm along x that ends in two teeth [mm]."""
+    rows, last = [f"{k + 1} 3 {k} 0 0 2 {k or -1}" for k in range(21)], 21
+    for way in ways:
+        before, step = 21, np.array(way) / np.linalg.norm(way) / 2.0
+        for k in range(1, int(2 * length) + 1):
+            x, y, z = np.array([20.0, 0.0, 0.0]) + k * step
+            last += 1
+            rows.append(f"{last} 3 {x:.6f} {y:.6f} {z:.6f} {narrow} {before}")
+            before = last
+    path.write_text("\n".join(rows))
+    return path
+
+
+@pytest.mark.parametrize("length", [3.0, 4.0, 5.0, 9.0])
+@pytest.mark.parametrize("lean", [0.1, 0.15])
+def test_outlets_of_a_fork_cut_short_may_overlap(
+    lean: float, length: float, tmp_path: Path
+) -> None:
+    path = fork(tmp_path / "a.swc", [(1.0, lean, 0.0), (1.0, -lean, 0.0)], length, 1.0)
+    vessel = Vessel.read(path, "mm")
+    lumen = vessel.lumen()
+    assert lumen.outlets == ("end-2", "end-3")
+    end = np.array([20.0, 0.0, 0.0]) + (length - 0.8) * np.array([1.0, lean, 0.0])
+    assert lumen.gap(1e-3 * end[None])[0] > 0.8e-3
+    assert lumen.gap(1e-3 * (end[None] + [0.0, 1.3, 0.0]))[0] < 0.0
+
+
+def test_teeth_side_by_side_that_bend_sharply_are_a_tree(tmp_path: Path) -> None:
+    """The first is narrow in its bend, where the second leaves it."""
+    path = fork(tmp_path / "a.swc", [(0.0, 1.0, 0.0), (0.2, 1.0, 0.0)], 8.0, 1.0)
+    vessel = Vessel.read(path, "mm")
+    assert vessel.lumen().outlets == ("end-2", "end-3")
+    assert vessel.deviation is not None
+    assert vessel.deviation.outside.radii[2] < 0.05
+
+
+def test_an_end_inside_of_another_tube_is_left_out_and_said(tmp_path: Path) -> None:
+    path = fork(tmp_path / "a.swc", [(1.0, 0.1, 0.0), (1.0, -0.05, 0.0)], 5.0, 1.0)
+    text = path.read_text().splitlines()
+    x, y, z = (float(value) for value in text[-1].split()[2:5])
+    for k in range(1, 12):
+        text.append(f"{len(text) + 1} 3 {x + 0.5 * k} {y} {z} 1.0 {len(text)}")
+    path.write_text("\n".join(text))
+    vessel = Vessel.read(path, "mm")
+    assert vessel.lumen().outlets == ("end-3",)
+    assert "The path to 'end-2' is left out: it ends inside of another one's tube." in vessel.notes
+
+
+def test_how_deep_a_point_is_where_narrow_tubes_run_beside_wide_ones() -> None:
+    rng = np.random.default_rng(0)
+    s = np.linspace(0.0, 1.0, 400)[:, None]
+    wide = np.hstack([20 * s, 0 * s, 0 * s]), np.full(400, 2.0)
+    thin = np.hstack([20 * s, 1.5 + 0 * s, 0.3 * s]), np.linspace(1.1, 1.6, 400)
+    points, radius = (np.concatenate([a, b]) for a, b in zip(wide, thin, strict=True))
+    asked = rng.uniform([0.0, -3.0, -3.0], [20.0, 4.0, 3.0], (500, 3))
+    apart = np.linalg.norm(asked[:, None] - points, axis=2)
+    assert np.array_equal(Balls(points, radius).depth(asked), (radius - apart).max(axis=1))

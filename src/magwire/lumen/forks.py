@@ -61,7 +61,7 @@ def join_ways(ways: Mapping[str, Array], trunks: Sequence[Array], width: float |
             raise refusal(f"'{name}' runs along another one to its end")
         walls.add(name, _wall(name, balls, shared, walls, width))
         seen.update((balls[i].tobytes(), i) for i in range(shared, len(balls)))
-    check_courses(walls)
+    check_courses(walls, beside=True)
     for number, balls in enumerate(trunks, start=1):
         walls.add(f"trunk {number}", _trunk(balls, walls, width))
     return Tree(tuple(walls.branches), Lazy({n: partial(_tube, b) for n, b in ways.items()}))
@@ -103,7 +103,7 @@ def _wall(name: str, balls: Array, shared: int, walls: Walls, width: float | Non
     near = own[:RUN_IN]  # closer together where the wall takes on its radius
     arcs = np.sort(np.concatenate([own, 0.5 * (near[1:] + near[:-1])]))
     tangents = course(own[[0, -1]], 1)[:, :3]
-    return grown(name, Line(arcs - own[0], course(arcs), tangents, True), walls, width)
+    return grown(name, Line(arcs - own[0], course(arcs), tangents, True), walls, width, widens=True)
 
 
 def _trunk(balls: Array, walls: Walls, width: float | None) -> Branch:

@@ -27,6 +27,10 @@ SHARED = 0.01  # distance at which two centrelines stop being one, over the radi
 WIDER = 1.05  # largest radius of a branch where it leaves, over its parent's
 RUN_IN = 1.0  # length over which a branch takes on its radius, at least, over the radius
 STEEPNESS = 5.0  # that length over what the radius gains, at least
+STEEP, GENTLE = (
+    0.9,
+    0.8,
+)  # rise of a radius over the arc that is too much, and that it is lowered to
 ROUNDING = 1.6  # bend radius of a path around the corner of a junction, over the parent's radius
 MOUTH = 1.5  # how far from the entrance a branch leaves that has a wall of its own from there on
 OFF_AXIS = 0.5  # farthest from its parent's centreline that a branch starts, over the radius
@@ -228,7 +232,9 @@ class Line(NamedTuple):
     open_end: bool
 
 
-def grown(name: str, line: Line, walls: Walls, width: float | None) -> Branch:
+def grown(
+    name: str, line: Line, walls: Walls, width: float | None, *, widens: bool = False
+) -> Branch:
     """The wall of a tube that leaves other walls.
 
     Parameters
@@ -239,12 +245,18 @@ def grown(name: str, line: Line, walls: Walls, width: float | None) -> Branch:
         Those before it.
     width
         Width over which it blends into them [m]; if None, by its radius where it leaves.
+    widens
+        Whether it may be wider than what it leaves, which may be narrow in a sharp bend only.
     """
     arcs, balls = line.arcs, line.balls
     others = walls.near(balls[:1, :3], 0.0) or walls.traces
     if width is None:
         width = BLEND * float(balls[arcs <= JUNCTION * balls[0, 3], 3].min())
+    if not widens:
+        _check_width(name, float(balls[0, 3]), deepest(balls[0], others)[1])
     radius = _run_in(name, arcs, balls, others, width)
+    if widens and np.any(np.diff(radius) > STEEP * np.diff(arcs)):
+        radius = np.minimum.accumulate(radius - GENTLE * arcs) + GENTLE * arcs
     begin, end = line.tangents
     return Branch(
         balls[:, :3],
@@ -379,9 +391,7 @@ def _run_in(name: str, arcs: Array, balls: Array, others: list[Trace], width: fl
     radius grows to its own.
     """
     wide = float(balls[0, 3])
-    gap, parent = deepest(balls[0], others)
-    _check_width(name, wide, parent)
-    lost = missing(wide, gap, width)
+    lost = missing(wide, deepest(balls[0], others)[0], width)
     if lost > 0.75 * wide:
         raise InputError(
             "Input blend of Lumen.tree must be smaller than the branches are wide; received "
@@ -420,8 +430,16 @@ def _ramp(t: Array) -> Array:
     return np.asarray(t**3 * (10.0 + t * (6.0 * t - 15.0)))
 
 
-def check_courses(walls: Walls) -> None:
-    """Refuse branches that come back to others, and outlets inside of others."""
+def check_courses(walls: Walls, *, beside: bool = False) -> None:
+    """Refuse branches that come back to others, and outlets inside of others.
+
+    Parameters
+    ----------
+    walls
+        The walls.
+    beside
+        Whether outlets that are about as far along may overlap, as those of a fork cut short do.
+    """
     order = {id(trace): i for i, trace in enumerate(walls.traces)}
     for i, trace in enumerate(walls.traces):
         balls = trace.balls[::SPARSE]
@@ -445,8 +463,9 @@ def check_courses(walls: Walls) -> None:
         for other in walls.near(end, 0.0):
             if other is trace:
                 continue
-            distance, _, radius = other.nearest(end)
-            if distance[0] < BESIDE * radius[0]:
+            distance, arc, radius = other.nearest(end)
+            close = other.curve.length - arc[0] < MOUTH * radius[0]
+            if distance[0] < BESIDE * radius[0] and not (beside and close):
                 raise refusal(
                     f"the outlet '{trace.name}' lies inside of '{other.name}', {distance[0]:.6g} m "
                     f"from its centreline, with radius {radius[0]:.6g} m there"
