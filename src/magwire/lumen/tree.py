@@ -15,6 +15,7 @@ from magwire.errors import InputError
 from magwire.lumen.branch import Branch
 from magwire.lumen.curve import Curve
 from magwire.lumen.lazy import Lazy
+from magwire.lumen.ridges import without_ridges
 
 if TYPE_CHECKING:
     from scipy.spatial import KDTree
@@ -244,9 +245,9 @@ def grown(name: str, line: Line, walls: Walls, width: float | None) -> Branch:
     others = walls.near(balls[:1, :3], 0.0) or walls.traces
     if width is None:
         width = BLEND * float(balls[arcs <= JUNCTION * balls[0, 3], 3].min())
-    radius = _run_in(name, arcs, balls, others, width)
+    radius, run_in = _run_in(name, arcs, balls, others, width)
     begin, end = line.tangents
-    return Branch(
+    branch = Branch(
         balls[:, :3],
         radius,
         begin_tangent=begin,
@@ -255,6 +256,7 @@ def grown(name: str, line: Line, walls: Walls, width: float | None) -> Branch:
         open_end=line.open_end,
         blend=width,
     )
+    return without_ridges(branch, run_in)
 
 
 def _leaves(name: str, line: Branch, axes: Mapping[str, _Trace], walls: Walls) -> float:
@@ -372,11 +374,13 @@ def _turn(
     return np.concatenate([balls, after])
 
 
-def _run_in(name: str, arcs: Array, balls: Array, others: list[_Trace], width: float) -> Array:
+def _run_in(
+    name: str, arcs: Array, balls: Array, others: list[_Trace], width: float
+) -> tuple[Array, float]:
     """Radius of a branch: at its start so small that the blend does not see it.
 
     The first ball lies ``width`` inside of a branch before it, and its cap with it. From there the
-    radius grows to its own.
+    radius grows to its own; the length over which it does is the second answer.
     """
     found = [other.nearest(balls[:1, :3]) for other in others]
     gaps = [float(radius[0] - distance[0]) for distance, _, radius in found]
@@ -389,9 +393,8 @@ def _run_in(name: str, arcs: Array, balls: Array, others: list[_Trace], width: f
             "Input blend of Lumen.tree must be smaller than the branches are wide; received "
             f"{width:.6g} m where '{name}' has a radius of {wide:.6g} m."
         )
-    return np.asarray(
-        balls[:, 3] - lost * (1.0 - _ramp(arcs / max(RUN_IN * wide, STEEPNESS * lost)))
-    )
+    length = max(RUN_IN * wide, STEEPNESS * lost)
+    return np.asarray(balls[:, 3] - lost * (1.0 - _ramp(arcs / length))), length
 
 
 def _check_width(name: str, wide: float, parent: float) -> None:
