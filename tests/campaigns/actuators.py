@@ -184,7 +184,10 @@ def stays_free(result: Result) -> str:
 
 def brief(why: str) -> str:
     """The first sentence of a refusal, without advice."""
-    return why.splitlines()[0].split(": its gradient")[0].split(" It was tried again")[0]
+    said = why.splitlines()[0].split(" It was tried again")[0]
+    return said.split("; ask for")[0].replace(
+        ": its gradient pulls, or the wire is about to buckle", ""
+    )
 
 
 def row(case: str, rig: Rig) -> str:

@@ -94,11 +94,11 @@ def test_slowest_mode_is_found_from_a_guess_in_another_plane() -> None:
     steered = navigator.model
     before = steered.look()
     assert before is not None
-    mode = steered._linear.mode[
-        8 : 4 * (len(steered._plant.state.q) - int(steered._plant.state.held[0]) + 1) - 1
+    mode = steered._linear.modes[
+        8 : 4 * (len(steered._plant.state.q) - int(steered._plant.state.held[0]) + 1) - 1, 0
     ]
     assert np.abs(mode[2::4]).max() > 10.0 * np.abs(mode[0::4]).max()  # it swings along z
-    mode[:] = 0.0
+    steered._linear.modes[:] = 0.0
     mode[1::4] = 1.0
     after = steered.look()
     assert after is not None

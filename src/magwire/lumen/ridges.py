@@ -17,7 +17,6 @@ from magwire.lumen.branch import Branch
 
 Array = NDArray[np.float64]
 
-PART = 0.9  # of the curvature of a ridge at most; a wall of which nearly has one is nearly as sharp
 PASSES = 100
 WEIGHT = 0.5  # of the neighbours' mean in a pass
 
@@ -44,7 +43,7 @@ def without_ridges(branch: Branch, begin: float) -> Branch:
 
 
 def ridges(branch: Branch) -> Array:
-    """Arc parameters of pieces at which the radius leaves ridges, or nearly so, shape (n,) [m].
+    """Arc parameters of pieces at which the radius leaves ridges, shape (n,) [m].
 
     At the wall |x - c| = R, and of R - |x - c| as a function of S the second derivative is
     R'' + kappa sqrt(1 - R'^2) cos(angle) - (1 - R'^2)/R, which must be negative all around. With
@@ -55,7 +54,7 @@ def ridges(branch: Branch) -> Array:
     first, second = (branch.curve.at(s, k)[:, :3] for k in (1, 2))
     curvature = np.linalg.norm(np.cross(first, second), axis=1)
     square = np.maximum(1.0 - slope**2, 0.0)
-    sharp = bend + curvature * np.sqrt(square) > PART * square / radius
+    sharp = bend + curvature * np.sqrt(square) > square / radius
     there: Array = s[sharp & (bend > 0.0)]
     return there
 

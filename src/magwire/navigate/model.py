@@ -15,7 +15,7 @@ from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.errors import InputError, one_of
 from magwire.kernels.arrays import Motion
-from magwire.kernels.linearise import Linear, linearise, respond, tube_force
+from magwire.kernels.linearise import linearise, new_linear, respond, tube_force
 from magwire.kernels.newton import newton
 from magwire.kernels.wall.gap import gap_value
 from magwire.lumen import Lumen
@@ -129,8 +129,7 @@ class Model:
         self._came: Snapshot | None = None  # where the wire rested before its field was changed
         self._limits = system.step_limits()
         self._tube = path.arrays(system.wire.length)
-        rows = len(self._plant.work.step)
-        self._linear = Linear(np.zeros((3, rows)), np.ones(rows), np.zeros(3))
+        self._linear = new_linear(len(self._plant.work.step))
 
     @property
     def feed(self) -> float:

@@ -217,8 +217,10 @@ class Pilot:
                 if past is not None:
                     view = past
                     continue
-            wider = 2.0 if part == 1.0 else 1.5 * part
-            self._trust = min(tuned.PILOT.trust, max(tuned.PILOT.least_trust, wider * self._trust))
+            wider, used = 2.0 if part == 1.0 else 1.5 * part, self._trust
+            self._trust = min(tuned.PILOT.trust, max(tuned.PILOT.least_trust, wider * used))
+            if part == 0.0 and self._trust == used:  # the next programme would be this one again
+                break
             enough = 1.0 if touchy else 0.5**tuned.PILOT.halvings
             if part >= enough and norm(change) < tuned.PILOT.settled * self.programme.unit:
                 break

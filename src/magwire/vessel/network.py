@@ -81,6 +81,7 @@ class Network:
         first = np.concatenate([[0], np.cumsum([len(line.points) for line in lines])])
         owner = np.repeat(np.arange(len(lines)), np.diff(first))
         stand_in, notes = joining.merged(points, radius, owner)
+        radius = joining.widest(radius, stand_in)
         pairs = joining.pairs(stand_in, owner)
         bridges, more = joining.bridges(points, radius, pairs, stand_in, first)
         pairs = np.concatenate([pairs, bridges])
