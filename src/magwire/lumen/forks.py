@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from magwire.errors import InputError
 from magwire.lumen.branch import Branch
 from magwire.lumen.lazy import Lazy
+from magwire.lumen.ridges import without_ridges
 from magwire.lumen.spline import spline
 from magwire.lumen.tree import (
     BLEND,
@@ -82,7 +83,7 @@ def _shared(balls: Array, seen: Mapping[bytes, int]) -> int:
 def _wall(name: str, balls: Array, shared: int, walls: Walls, width: float | None) -> Branch:
     """The wall of a path from where it leaves those before it; all of it for the first one."""
     if not walls.branches:
-        return _tube(balls)
+        return without_ridges(_tube(balls), float(balls[0, 3]))
     if np.linalg.norm(balls[0, :3] - walls.branches[0].entrance) > 0.0:
         raise InputError(
             f"Input balls of Lumen.ways must all start at one entrance; '{name}' starts at "

@@ -15,6 +15,7 @@ from magwire.errors import InputError
 from magwire.lumen.branch import Branch
 from magwire.lumen.curve import Curve
 from magwire.lumen.lazy import Lazy
+from magwire.lumen.ridges import without_ridges
 
 if TYPE_CHECKING:
     from scipy.spatial import KDTree
@@ -258,7 +259,7 @@ def grown(
     if widens and np.any(np.diff(radius) > STEEP * np.diff(arcs)):
         radius = np.minimum.accumulate(radius - GENTLE * arcs) + GENTLE * arcs
     begin, end = line.tangents
-    return Branch(
+    branch = Branch(
         balls[:, :3],
         radius,
         begin_tangent=begin,
@@ -267,6 +268,8 @@ def grown(
         open_end=line.open_end,
         blend=width,
     )
+    hidden = arcs[radius < balls[:, 3]]
+    return without_ridges(branch, float(hidden[-1]) if len(hidden) > 0 else 0.0)
 
 
 def _leaves(name: str, line: Branch, axes: Mapping[str, Trace], walls: Walls) -> float:
