@@ -38,6 +38,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 LARGE = 0.9999  # feed in a time step, over an edge: one that feeds more is cut in half
+LONGEST = 2.0  # the same, over the feed between two planned fields, at most
 SPEED = 0.01  # wire lengths in a second; there is no inertia
 WIDE = 10.0  # lumen's radius over the wire's, in which a wire has nothing to lean on
 MOUTH = 0.5  # of that lumen's radius: from there down it counts as narrow
@@ -245,7 +246,7 @@ def _prospect(
         tuned.OUTLET.finest * long.length, tuned.OUTLET.pace * float(np.quantile(radii, 0.25))
     )
     yielding = firm_wall(wire, nothing.bend.radius, min(tuned.OUTLET.gap, tuned.OUTLET.part * room))
-    step = LARGE * long.edge_length
+    step = min(LARGE * long.edge_length, LONGEST * every)
     course = _Course(
         planned=Simulation(long, lumen, contact=contact or yielding),
         replayed=_briskly(Simulation(long, lumen, contact=contact or Barrier())),
