@@ -38,6 +38,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 LARGE = 0.9999  # feed in a time step, over an edge: one that feeds more is cut in half
+LONGEST = 2.0  # the same, over the feed between two planned fields, at most
 SPEED = 0.01  # wire lengths in a second; there is no inertia
 WIDE = 10.0  # lumen's radius over the wire's, in which a wire has nothing to lean on
 MOUTH = 0.5  # of that lumen's radius: from there down it counts as narrow
@@ -300,7 +301,7 @@ def course_to(lumen: Lumen, wire: Wire, contact: Barrier | None = None) -> _Cour
         replayed=_briskly(Simulation(long, lumen, contact=contact or Barrier())),
         feed=Feed(SPEED * long.length, tuned.OUTLET.slack * way.length),
         every=every,
-        step=LARGE * long.edge_length,
+        step=min(LARGE * long.edge_length, LONGEST * every),
         goal=way.length - float(radii[-1]),
     )
 

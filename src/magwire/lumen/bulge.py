@@ -113,6 +113,8 @@ def sheet_bulges(
     """
     wall = build(sheet, branches)
     points, sharpest = _sharpness(arrays, wall, inset)
+    from scipy.ndimage import maximum_filter  # slow to import, and for triangles only
+
     low, high = points.min(axis=0), points.max(axis=0)
     cube = max(edge, float(np.prod(high - low + edge) / CUBES) ** (1.0 / 3.0))
     low = low - (REACHED + 1) * cube

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Literal, get_args
@@ -15,6 +16,7 @@ from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.errors import InputError, one_of
 from magwire.kernels.body import linearised
+from magwire.kernels.history import copy_state
 from magwire.kernels.linearise import new_linear, respond, tube_force
 from magwire.kernels.wall.gap import gap_value
 from magwire.lumen import Lumen
@@ -63,7 +65,7 @@ class View:
     @property
     def distance(self) -> float:
         """From the centreline to the tip [m]."""
-        return float(np.linalg.norm(self.offset))
+        return math.sqrt(self.offset @ self.offset)
 
 
 class Model:
@@ -125,6 +127,7 @@ class Model:
         believed = system.still if friction == "model" else system.smooth
         self._plant = Plant(believed, tube=tube)
         self._rubs = believed.rubs
+        self._kept = self._plant.system.new_state()
         self._came: Snapshot | None = None  # where the wire rested before its field was changed
         self._limits = system.step_limits()
         self._tube = path.arrays(system.wire.length)
@@ -213,12 +216,14 @@ class Model:
         """Find the equilibrium in another field; if there is none, stay as before."""
         if self._rubs:
             return self._settle_rubbing(np.asarray(flux, dtype=np.float64))
-        before, plant = self.remember(), self._plant
+        plant, kept = self._plant, self._kept
+        copy_state(plant.state, kept)
         self.flux = np.asarray(flux, dtype=np.float64)
         status = plant.settle(self._limits)[0]
         self.solves += 1
         if status != Status.CONVERGED:
-            self.return_to(before)
+            copy_state(kept, plant.state)
+            self.flux = kept.inputs
             return False
         return True
 
@@ -332,12 +337,13 @@ class Model:
 
 def across(direction: Array) -> Array:
     """Two unit vectors across a direction, shape (2, 3)."""
-    x, y, z = direction / np.linalg.norm(direction)
+    x, y, z = (direction / math.sqrt(direction @ direction)).tolist()
     if abs(x) <= abs(y) and abs(x) <= abs(z):
-        first = np.array([0.0, z, -y])
+        u, v, w = 0.0, z, -y
     elif abs(y) <= abs(z):
-        first = np.array([-z, 0.0, x])
+        u, v, w = -z, 0.0, x
     else:
-        first = np.array([y, -x, 0.0])
-    u, v, w = first / np.linalg.norm(first)
+        u, v, w = y, -x, 0.0
+    size = math.sqrt(u * u + v * v + w * w)
+    u, v, w = u / size, v / size, w / size
     return np.array([[u, v, w], [y * w - z * v, z * u - x * w, x * v - y * u]])

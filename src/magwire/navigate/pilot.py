@@ -10,6 +10,7 @@ equilibrium, and the next programme starts from the equilibrium in the new field
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -304,8 +305,8 @@ class Pilot:
                 f"{within} {wider * 1e3:.3g} mm of the centreline should it be weaker; with "
                 f"{norm(view.flux) * 1e3:.3g} mT it is {view.distance * 1e3:.3g} mm away."
             )
-        uneven = programme.uneven(view)
-        if demands.gain_tolerance > 0.0 and uneven > min(wider + missed, touches):
+        uneven = programme.uneven(view) if demands.gain_tolerance > 0.0 else 0.0
+        if uneven > min(wider + missed, touches):
             raise NavigationError(
                 f"{within} {wider * 1e3:.3g} mm of the centreline with each coil "
                 f"{demands.gain_tolerance:.3g} off; with {flux * 1e3:.3g} mT it is up to "
@@ -320,4 +321,4 @@ class Pilot:
 
 def norm(vector: Array) -> float:
     """Length of a vector."""
-    return float(np.linalg.norm(vector))
+    return math.sqrt(vector @ vector)

@@ -12,11 +12,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import product
+from typing import NamedTuple
 
 import daqp
 import numpy as np
 from numpy.typing import NDArray
 
+from magwire.kernels.conditions import fill_conditions
 from magwire.navigate import tuned
 from magwire.navigate.demands import Demands
 from magwire.navigate.model import View
@@ -28,6 +30,18 @@ ANGLES = 2.0 * np.pi * np.arange(SIDES) / SIDES
 NORMALS: Array = np.stack([np.cos(ANGLES), np.sin(ANGLES)], axis=1)
 FREE = 1e30  # no bound
 AXES: Array = np.eye(3)[:, :, None] * np.eye(3)[:, None, :]  # shares of coils along the axes
+
+
+class Constraints(NamedTuple):
+    """Linearised constraints, rows . (change, misses) <= upper.
+
+    rows [m, 6], for the change of the field and for how far offset, eigenvalue and field miss what
+    is asked for; upper [m]; missed: the sum of these misses at no change.
+    """
+
+    rows: Array
+    upper: Array
+    missed: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,12 +128,10 @@ class Programme:
 
     def merit(self, view: View, before: Array, stiffness: float, margin: float) -> float:
         """What the programme minimises, at the field as it is."""
-        _, upper = constraints(self, view, margin)
-        missed = np.maximum(0.0, -np.minimum.reduceat(upper, self.starts))
+        missed = constraints(self, view, margin).missed
         b, change = view.flux / self.unit, (view.flux - before) / self.unit
-        return 0.5 * float(b @ b + stiffness * change @ change) + tuned.PROGRAMME.penalty * float(
-            missed.sum()
-        )
+        price = 0.5 * float(b @ b + stiffness * change @ change)
+        return price + tuned.PROGRAMME.penalty * missed
 
     def change(
         self, view: View, before: Array, stiffness: float, margin: float, bounds: Array
@@ -139,7 +151,7 @@ class Programme:
         bounds
             Smallest and largest change of each component [T], shape (2, 3).
         """
-        rows, upper = constraints(self, view, margin)
+        rows, upper, _ = constraints(self, view, margin)
         b, was = view.flux / self.unit, before / self.unit
         return solve(
             np.diag([1.0 + stiffness] * 3 + [1.0] * 3),
@@ -176,43 +188,39 @@ class Programme:
 
 
 @lru_cache(maxsize=4)
-def constraints(programme: Programme, view: View, margin: float) -> tuple[Array, Array]:
-    """The linearised constraints, rows . (change, misses) <= upper.
-
-    Returns
-    -------
-    tuple
-        Rows, shape (m, 6), for the change of the field and for how far offset, eigenvalue and field
-        miss what is asked for; and upper bounds, shape (m,).
-    """
+def constraints(programme: Programme, view: View, margin: float) -> Constraints:
+    """The linearised constraints."""
     unit, size, weak = programme.unit, view.radius, programme.demands.weakening
-    b = view.flux / unit
-    offset, by_field = view.offset / size, view.offset_by_flux * (unit / size)
+    by_field = view.offset_by_flux * (unit / size)
     weight = max(view.eigenvalue, margin)
-    value, by_eigen = view.eigenvalue / weight, view.eigenvalue_by_flux * (unit / weight)
-    room, flux = programme.room(view) / size, float(np.linalg.norm(b))
-    wider = programme.wider_room(view) / size
+    by_eigen = view.eigenvalue_by_flux * (unit / weight)
+    room, wider = programme.room(view) / size, programme.wider_room(view) / size
     fields = np.array([1.0, 1.0 / weak, (2.0 - weak) / weak])  # over the weakest
     rooms = np.array([wider, room, wider])
     uneven = programme.cases > len(fields)
     if uneven:  # the planned field once more
         fields, rooms = np.append(fields, fields[1]), np.append(rooms, wider)
     _, eigen, itself = programme.starts
-    misses = -np.repeat(np.eye(3), (eigen, itself - eigen, 1), axis=0)
-    rows, upper = np.hstack([np.empty((len(misses), 3)), misses]), np.empty(len(misses))
-    rows[:eigen, :3] = (fields[:, None, None] * (NORMALS @ by_field)).reshape(-1, 3)
-    offsets = offset + (fields[:, None] - 1.0) * (by_field @ b)
-    upper[:eigen] = (rooms[:, None] - offsets @ NORMALS.T).ravel()
-    rows[eigen:itself, :3] = -fields[:, None] * by_eigen
-    upper[eigen:itself] = value + (fields - 1.0) * (by_eigen @ b) - margin / weight
+    rows, upper = blank(programme.starts).copy(), np.empty(itself + 1)
+    seen = view.flux / unit, view.offset / size, by_field, by_eigen
+    largest = min(programme.demands.largest_weakest / unit, FREE)
+    limits = view.eigenvalue / weight, margin / weight, largest
+    missed = fill_conditions(NORMALS, fields, rooms, seen, limits, rows, upper)
     if uneven:
         for last, own in ((eigen, NORMALS @ by_field), (itself, -by_eigen[None])):
-            most, by_change = programme.off(own, b)
+            most, by_change = programme.off(own, seen[0])
             rows[last - len(own) : last, :3] += by_change
             upper[last - len(own) : last] -= most
-    rows[itself, :3] = b / max(flux, 1e-9)
-    upper[itself] = min(programme.demands.largest_weakest / unit, FREE) - flux
-    return rows, upper
+        missed = tuple(np.minimum.reduceat(upper, programme.starts).tolist())
+    return Constraints(rows, upper, sum(max(0.0, -value) for value in missed))
+
+
+@lru_cache(maxsize=4)
+def blank(starts: tuple[int, int, int]) -> Array:
+    """Rows with the columns of what misses, and nothing in those of the field."""
+    _, eigen, itself = starts
+    misses = -np.repeat(np.eye(3), (eigen, itself - eigen, 1), axis=0)
+    return np.hstack([np.zeros((len(misses), 3)), misses])
 
 
 def solve(
