@@ -200,6 +200,11 @@ def _tips(inside: Interior, distance: Array, tree: KDTree) -> list[End]:
             break
         tips.append(tip)
         taken = np.concatenate([taken, way])
+    else:
+        raise FileFaultError(
+            f"has a closed surface of more than {BRANCHES} branches; expected the inner wall of a "
+            "vessel, open or with flat caps at its ends"
+        )
     return [_tip_end(inside.centres[tip], inside, distance) for tip in tips]
 
 
