@@ -66,7 +66,8 @@ def test_depth_in_a_cylinder_of_slender_triangles_is_that_of_all_of_them() -> No
 @pytest.mark.parametrize(
     ("made", "message"),
     [
-        (lambda: trimesh.creation.torus(25.0, 9.0), "is a ring, without an open end to enter at"),
+        (lambda: trimesh.creation.torus(25.0, 8.0), "closed surface that goes round in a loop"),
+        (lambda: trimesh.creation.annulus(5.0, 7.0, 30.0), "surface that goes round in a loop"),
         (lambda: trimesh.creation.icosphere(3, 30.0), "has a surface that is no tube"),
     ],
 )
