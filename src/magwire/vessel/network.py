@@ -95,6 +95,8 @@ class Network:
         places[kept] = np.arange(len(kept))
         edges = joining.matrix(points[kept], pairs)
         ends = joining.ends(lines, first, places[stand_in], edges)
+        if not ends:
+            raise FileFaultError("is a ring, without an open end to enter at")
         if named:
             leaves = list(ends.values())
             tree = KDTree(points[kept][leaves])
