@@ -3,11 +3,11 @@
 #
 # A wire pushed by less than mu times the force that presses it to the wall is thought to stick; contacts are soft,
 # but then one expects it to give way by some distance and to stop. It does not stop: friction that is not used up is
-# a damper, scaled by the mass of what it holds, and a wire weighs milligrams. 50 mm of a guidewire of 0.36 mm, pressed
-# by 10 mN and pushed by half of what friction holds, go at 16 mm/s, as fast as a hand feeds it; at 1 mN still
+# a damper, scaled by the mass of what it holds, and a wire weighs milligrams. 50 mm of a guidewire of 0.36 mm,
+# pressed by 10 mN and pushed by half of what friction holds, go at 16 mm/s, as fast as a hand feeds it; at 1 mN still
 # at 1.7 mm/s. The speed is in proportion to the load, so that it sticks at none, and a shorter time step changes
-# nothing. While a wire is held for ten seconds, it backs out of a vessel by centimetres. Remedy: the elliptic cone with
-# noslip_iterations, by which it stays, or with impratio, by which the speed is divided.
+# nothing. While a wire is held for ten seconds, it backs out of a vessel by centimetres. Remedy: the elliptic cone
+# with noslip_iterations, by which it stays, or with impratio, by which the speed is divided.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -6,8 +6,8 @@
 # friction has to be, by mu squared. A guidewire of 0.36 mm, 50 mm of it pressed by 1 mN, sinks by 0.8 um with a
 # coefficient of 0.05, that of a coated wire, by 14 um with 0.2 and by 313 um with 0.8, nearly its whole thickness.
 # With cone="elliptic" it is 488 um whatever the coefficient. So a study of friction is one of clearance, too, lumens
-# grow with the roughness of their walls, and a shorter time step changes nothing. Remedy: the elliptic
-# cone, and then solref and solimp for a depth that is small beside the clearance, under the load that is expected.
+# grow with the roughness of their walls, and a shorter time step changes nothing. Remedy: the elliptic cone, and then
+# solref and solimp for a depth that is small beside the clearance, under the load that is expected.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

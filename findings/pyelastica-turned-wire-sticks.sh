@@ -2,12 +2,13 @@
 # PyElastica 1.0.0: a rod that spins on a plane sticks along its axis, as if it did not spin.
 #
 # A guidewire that does not advance is turned: by Coulomb, friction points against the slip, and when the surface
-# slips sideways at u, little of it is left along the axis, so that the smallest push p mu N moves the rod, at
-# u p/sqrt(1 - p^2). RodPlaneContactWithAnisotropicFriction splits its kinetic friction by the slip, and one expects
-# just that. But it asks along the axis and across it, each for itself, whether the rod sticks: below slip_velocity_tol
-# along the axis all of mu N holds it, while mu N is spent sideways as well. A rod whose surface spins at 20 mm/s stays where
-# it is when it is pushed by half of mu N, and by nine tenths. Set going by a nudge, it slides as Coulomb says, so that one push
-# has two answers, and insertion hangs on how it began. Remedy: begin with a speed along the axis of thrice the tolerance.
+# slips sideways at u, little of it is left along the axis, so that the smallest push p mu N moves the rod, at u
+# p/sqrt(1 - p^2). RodPlaneContactWithAnisotropicFriction splits its kinetic friction by the slip, and one expects
+# just that. But it asks along the axis and across it, each for itself, whether the rod sticks: below
+# slip_velocity_tol along the axis all of mu N holds it, while mu N is spent sideways as well. A rod whose surface
+# spins at 20 mm/s stays where it is when it is pushed by half of mu N, and by nine tenths. Set going by a nudge, it
+# slides as Coulomb says, so that one push has two answers, and insertion hangs on how it began. Remedy: begin with a
+# speed along the axis of thrice the tolerance.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
