@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+LARGE = 0.9999  # feed in a time step, over an edge: one that feeds more is cut in half
 SPEED = 0.01  # wire lengths in a second; there is no inertia
 WIDE = 10.0  # lumen's radius over the wire's, in which a wire has nothing to lean on
 MOUTH = 0.5  # of that lumen's radius: from there down it counts as narrow
@@ -325,6 +326,7 @@ def course_to(lumen: Lumen, wire: Wire, contact: Barrier | None = None) -> _Cour
         replayed=_briskly(Simulation(long, lumen, contact=contact or Barrier())),
         feed=Feed(SPEED * long.length, tuned.OUTLET.slack * way.length),
         every=every,
+        step=LARGE * long.edge_length,
         goal=way.length - float(radii[-1]),
     )
 
@@ -337,12 +339,16 @@ def _briskly(simulation: Simulation) -> Simulation:
 
 @dataclass(frozen=True)
 class _Course:
-    """How a wire goes to an outlet: planned on one wall, replayed on another."""
+    """How a wire goes to an outlet: planned on one wall, replayed on another.
+
+    every: feed between two planned fields; step: in a time step of the replay [m].
+    """
 
     planned: Simulation
     replayed: Simulation
     feed: Feed
     every: float
+    step: float
     goal: float
 
     def run(self, distance: float, navigator: Navigator) -> Result:
@@ -350,9 +356,9 @@ class _Course:
         return self.replayed.run(
             Feed(self.feed.fastest, distance),
             navigator,
-            time_step=self.every / self.feed.fastest,
-            record_every=self.every,
-            update_every=self.every,
+            time_step=self.step / self.feed.fastest,
+            record_every=self.step,
+            update_every=self.step,
             until=self.goal,
         )
 
@@ -386,9 +392,9 @@ def _travel(nothing: Prospect, course: _Course, demands: Demands) -> Prospect:
     course replayed open loop. Where the wire was taken back to try again, the last tries are
     replayed from the entrance.
     """
-    every, goal = course.every, course.goal
+    goal = course.goal
     steering = TipNavigator(
-        demands, update_every=every, plan_every=every, attempts=tuned.OUTLET.attempts
+        demands, update_every=course.step, plan_every=course.every, attempts=tuned.OUTLET.attempts
     )
     navigator = _Unasked(steering.start(course.planned.system))
     planned = course.run(course.feed.largest, navigator)

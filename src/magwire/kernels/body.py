@@ -14,6 +14,7 @@ from magwire.kernels.arrays import Array, Field, Guide, Motion, Mouth, Rod, Stat
 from magwire.kernels.centreline import LumenArrays
 from magwire.kernels.glance import glance
 from magwire.kernels.guide import find_mouth, place_held
+from magwire.kernels.linearise import linearise
 from magwire.kernels.march import Drive, Tally, march
 from magwire.kernels.newton import Limits, newton
 from magwire.kernels.observe import observe, read_tally
@@ -81,6 +82,14 @@ def rest(body, limits):
     p = parts_of(body)
     mouth = mouth_of(p.model[0], p.guide, p.state)
     return newton(p.model, p.state, mouth, Motion(0.0, p.work.target), p.work, limits)
+
+
+@entry
+def linearised(body, linear):
+    """Linearise the equilibrium about its uniform field; see ``linearise``."""
+    p = parts_of(body)
+    mouth = mouth_of(p.model[0], p.guide, p.state)
+    return linearise(p.model, p.state, mouth, p.work, linear)
 
 
 @entry

@@ -93,14 +93,15 @@ def copy_band(source, target, rows):
 
 
 @part
-def find_step(model, state, mouth, motion, work, limits, level):
+def find_step(model, state, mouth, motion, work, limits, level, usual):
     """Solve for the Newton step, regularised as little as Cholesky allows.
 
     Expects gradient and band of ``state`` in ``work``. Leaves the factor in the band.
 
     A matrix stays positive definite as the shift grows. Levels of it are therefore searched from
     where the iteration before found one, with copies of the band: where many iterations in a row
-    need a large shift, that takes two factorisations in each.
+    need a large shift, that takes two factorisations in each. ``usual`` is the last level above 0
+    that did: where none does not do, that is tried next.
 
     Returns the number of factorisations, negative if no level will do; and the level, 0 for none.
     """
@@ -108,7 +109,8 @@ def find_step(model, state, mouth, motion, work, limits, level):
     nodes = state.q.shape[0]
     last = 4 * (nodes - held + 1) - 1
     count = 0
-    short_of = -1  # the largest level that is known not to do
+    short_of, enough = -1, SHIFTS  # levels that are known not to do, and to do
+    jumped = False
     level = max(level - 1, 0)
     kept = level > 0
     if kept:
@@ -126,12 +128,17 @@ def find_step(model, state, mouth, motion, work, limits, level):
         if factor(work.band, FIRST, last) < 0:
             if level == short_of + 1:
                 break
-            level -= 1
-        else:
-            short_of = level
-            level += 1
-            if level == SHIFTS:
-                return -count, 0
+            enough = level
+            level = (short_of + level) // 2 if jumped else level - 1
+            continue
+        short_of = level
+        if enough < SHIFTS:
+            level = (level + enough + 1) // 2
+            continue
+        level = max(level + 1, usual)
+        jumped, usual = level > short_of + 1, 0
+        if level == SHIFTS:
+            return -count, 0
     backward(work, held, nodes)
     return count, level
 
@@ -286,7 +293,7 @@ def newton(model, state, mouth, motion, work, limits):
     copy_configuration(state, a, held)
     factorisations = 0
     iteration = 0
-    level = 0
+    level, usual = 0, 0
     energy, nearest, size = 0.0, inf, inf
     status = CONVERGED
     known = False  # whether gradient and band are those of a
@@ -305,7 +312,8 @@ def newton(model, state, mouth, motion, work, limits):
             if not energy < inf or size <= limits.tolerance:
                 break
         iteration += 1
-        count, level = find_step(model, a, mouth, motion, work, limits, level)
+        count, level = find_step(model, a, mouth, motion, work, limits, level, usual)
+        usual = level if level > 0 else usual
         factorisations += abs(count)
         if count < 0:
             status = STALLED

@@ -14,9 +14,8 @@ from magwire.engine.plant import Plant, Snapshot
 from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.errors import InputError, one_of
-from magwire.kernels.arrays import Motion
-from magwire.kernels.linearise import linearise, new_linear, respond, tube_force
-from magwire.kernels.newton import newton
+from magwire.kernels.body import linearised
+from magwire.kernels.linearise import new_linear, respond, tube_force
 from magwire.kernels.wall.gap import gap_value
 from magwire.lumen import Lumen
 from magwire.navigate.schedule import Schedule
@@ -163,7 +162,7 @@ class Model:
     def feed_to(self, feed: float) -> bool:
         """Feed the wire on (or back) in the field as it is; whether an equilibrium was found."""
         edge = float(self.system.mesh.edge_length.min())
-        steps = max(1, int(np.ceil(abs(feed - self.feed) / (0.5 * edge) - 1e-9)))
+        steps = max(1, int(np.ceil(abs(feed - self.feed) / edge - 1e-9)))
         course = np.linspace(self.feed, feed, steps + 1)[1:]
         still = np.tile(self.flux, (steps, 1))
         self._came = None
@@ -216,8 +215,7 @@ class Model:
             return self._settle_rubbing(np.asarray(flux, dtype=np.float64))
         before, plant = self.remember(), self._plant
         self.flux = np.asarray(flux, dtype=np.float64)
-        still = Motion(0.0, plant.work.target)
-        status = newton(plant.model, plant.state, plant.mouth, still, plant.work, self._limits)[0]
+        status = plant.settle(self._limits)[0]
         self.solves += 1
         if status != Status.CONVERGED:
             self.return_to(before)
@@ -252,7 +250,7 @@ class Model:
         contacts that stick would hide how the wire answers where they give way.
         """
         plant = self._let_go()
-        value = linearise(plant.model, plant.state, plant.mouth, plant.work, self._linear)
+        value = linearised(plant.body, self._linear)
         if not value > 0.0:
             return None
         axes, offset, radius = self.tip()
