@@ -248,6 +248,11 @@ class OutletNumbers:
         Attempts in one place.
     slack
         Feed at most, over the length of the path: a wire may lie on the outside of bends.
+    spike
+        Peak field, over the median along the way, from which on a course is also planned with the
+        tip nearer to the centreline.
+    nearer
+        Parts of its room that the tip gives up there, one tried after the other.
     """
 
     pace: float = 0.2
@@ -258,6 +263,8 @@ class OutletNumbers:
     hard: float = 1e-3
     attempts: int = 3
     slack: float = 1.1
+    spike: float = 8.0
+    nearer: tuple[float, ...] = (0.25, 0.5)
 
 
 PILOT = PilotNumbers()
