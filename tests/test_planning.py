@@ -202,6 +202,12 @@ def test_map_shows_what_is_needed_and_what_is_not_reached(
     thin = maps._needed("thin", parts, fields)
     assert np.isnan(thin[-20:]).all()
     assert len(maps.draw(tubes, fields).axes) == 2
+    count = len(maps.draw(tubes, fields).axes[0].collections)
+    more = maps.draw(tubes, fields, trunks=[tubes["ahead"]]).axes[0].collections
+    assert len(more) == count + 1
+    sheet = np.eye(3), np.array([[0, 1, 2]])
+    (wall, *_) = maps.draw(tubes, fields, surface=sheet).axes[0].collections  # in place of tubes
+    assert len(wall.get_facecolor()) == 1
 
 
 def test_command_on_a_scenario(

@@ -416,6 +416,11 @@ class Lumen:
         """Names of a tree's outlets, in the order of its branches; empty for a single tube."""
         return tuple(self.paths)
 
+    @property
+    def trunks(self) -> tuple[Branch, ...]:
+        """Branches that are wall, but no way to an outlet: those after the outlets' own."""
+        return self.branches[len(self.paths) :] if self.paths else ()
+
     def towards(self, target: str) -> Lumen:
         """The same lumen with another outlet to go to; what was made for this one is shared.
 

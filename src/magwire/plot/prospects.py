@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +24,11 @@ HEIGHT = 120.0
 
 
 def draw(
-    tubes: Mapping[str, tuple[Array, Array]], fields: Mapping[str, tuple[Array, Array]]
+    tubes: Mapping[str, tuple[Array, Array]],
+    fields: Mapping[str, tuple[Array, Array]],
+    *,
+    trunks: Sequence[tuple[Array, Array]] = (),
+    surface: tuple[Array, NDArray[np.int64]] | None = None,
 ) -> Figure:
     """Draw the tree, coloured by the field that it takes.
 
@@ -35,6 +39,10 @@ def draw(
     fields
         How far the tip came [m] and flux density [T] on the path to each outlet, shapes (n,); what
         lies past the farthest is not reached. On a part that paths share, the largest field counts.
+    trunks
+        Points and radius of tubes that are wall, but no path.
+    surface
+        Corners [m] and triangles of the wall, if it is not of balls, to be drawn in place of tubes.
 
     Returns
     -------
@@ -49,9 +57,16 @@ def draw(
         parts = {n: shapes.Branch(1e3 * p, 1e3 * r) for n, (p, r) in tubes.items()}
         peak = max((1e3 * float(b.max(initial=0.0)) for _, b in fields.values()), default=0.0)
         scale = ScalarMappable(Normalize(0.0, peak or 1.0), style.PUSH)
+        if surface is not None:
+            shapes.draw_sheet(axes, 1e3 * surface[0], surface[1])
+        for points, radius in trunks if surface is None else ():
+            _draw_tube(axes, shapes.Branch(1e3 * points, 1e3 * radius))
         for k, name in enumerate(parts):
-            before = list(parts.values())[:k]
-            _draw_way(axes, name, parts, before, _needed(name, parts, fields), scale)
+            part, before = parts[name], list(parts.values())[:k]
+            start = shapes.leaves(part, before)
+            if surface is None:
+                _draw_tube(axes, shapes.Branch(part.points[start:], part.radius[start:]))
+            _draw_way(axes, name, part.points[start:], _needed(name, parts, fields)[start:], scale)
         axes.plot(*next(iter(parts.values())).points[:1].T, "s", color=style.INK, markersize=4)
         shapes.frame(axes, list(parts.values()))
         figure.colorbar(scale, ax=axes, shrink=0.6, label="flux density [mT]")
@@ -62,9 +77,12 @@ def save(
     tubes: Mapping[str, tuple[Array, Array]],
     fields: Mapping[str, tuple[Array, Array]],
     path: str | Path,
+    *,
+    trunks: Sequence[tuple[Array, Array]] = (),
+    surface: tuple[Array, NDArray[np.int64]] | None = None,
 ) -> None:
     """Draw the tree into a file; the parameters are those of ``draw``."""
-    figure = draw(tubes, fields)
+    figure = draw(tubes, fields, trunks=trunks, surface=surface)
     with mpl.rc_context(style.RC), successor(Path(path)) as draft:
         figure.savefig(draft)
 
@@ -90,30 +108,23 @@ def _needed(
     return needed
 
 
-def _draw_way(
-    axes: Any,
-    name: str,
-    parts: Mapping[str, shapes.Branch],
-    before: list[shapes.Branch],
-    needed: Array,
-    scale: ScalarMappable,
-) -> None:
-    """Draw what a path does not share with those before it."""
-    part = parts[name]
-    start = shapes.leaves(part, before)
-    own = shapes.Branch(part.points[start:], part.radius[start:])
-    x, y, z = shapes.tube(own)
+def _draw_tube(axes: Any, tube: shapes.Branch) -> None:
+    x, y, z = shapes.tube(tube)
     axes.plot_surface(
         x, y, z, color=style.LUMEN_EDGE, alpha=0.13, linewidth=0.0, shade=False, rstride=1,
         cstride=1, antialiased=True, rasterized=True,
     )  # fmt: skip
-    pieces = np.stack([own.points[:-1], own.points[1:]], axis=1)
-    values = needed[start:-1]
+
+
+def _draw_way(axes: Any, name: str, points: Array, needed: Array, scale: ScalarMappable) -> None:
+    """Draw what a path does not share with those before it, by the field that it takes there."""
+    pieces = np.stack([points[:-1], points[1:]], axis=1)
+    values = needed[:-1]
     known = np.isfinite(values)
     colours = np.where(known[:, None], scale.to_rgba(np.nan_to_num(values)), (0.6, 0.63, 0.66, 1.0))
     axes.add_collection3d(Line3DCollection(pieces, colors=colours, linewidths=2.4))
     reached = bool(known[-1])
     mark = "o" if reached else "x"
     colour = colours[-1] if reached else style.FORCE
-    axes.plot(*own.points[-1:].T, mark, color=colour, markersize=4.5)
-    axes.text(*own.points[-1], f"  {style.plain(name)}", color=style.INK, fontsize=7.0)
+    axes.plot(*points[-1:].T, mark, color=colour, markersize=4.5)
+    axes.text(*points[-1], f"  {style.plain(name)}", color=style.INK, fontsize=7.0)

@@ -27,6 +27,7 @@ SIDES = 28
 """Corners of a cross-section of the lumen drawn in space."""
 VIEW = (24.0, -58.0)
 """Elevation and azimuth that a single tube is seen from [deg]."""
+SHORT = 0.2  # extent along an axis over the longest, below which ticks would run together
 SLIM = 3.0
 """Longest extent over the second longest from which a box in space leaves room for its names."""
 TRIANGLES = 20_000
@@ -231,6 +232,9 @@ def frame(
     elevation, azimuth = view(parts)
     ax.view_init(elev=elevation, azim=azimuth)
     dress(ax)
+    for axis, extent in zip((ax.xaxis, ax.yaxis, ax.zaxis), size, strict=True):
+        if extent < SHORT * size.max():
+            axis.set_major_locator(_few_ticks(2))
     if slim:
         (ax.xaxis, ax.yaxis, ax.zaxis)[int(np.argmax(size))].labelpad = 12
 
@@ -300,10 +304,10 @@ def arcs(part: Branch) -> Array:
     return np.concatenate([[0.0], np.cumsum(steps)])
 
 
-def _few_ticks() -> Any:
+def _few_ticks(most: int = 4) -> Any:
     from matplotlib.ticker import MaxNLocator
 
-    return MaxNLocator(nbins=4, steps=[1, 2, 5, 10])
+    return MaxNLocator(nbins=most, steps=[1, 2, 5, 10])
 
 
 def _all_nodes(data: xr.Dataset) -> Array:

@@ -177,6 +177,8 @@ def save(lumen: Lumen, prospects: Sequence[Prospect], folder: Path, mark: str = 
         {name: path.centreline() for name, path in paths.items()},
         {p.outlet: (p.arc, p.flux_density) for p in prospects},
         folder / MAP,
+        trunks=[branch.centreline() for branch in lumen.trunks],
+        surface=None if lumen.sheet is None else (lumen.sheet.points, lumen.sheet.triangles),
     )
     return files(folder)
 

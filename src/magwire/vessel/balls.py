@@ -36,19 +36,14 @@ def closer(balls: Array, parts: int) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class Balls:
-    """The union of balls around points, shape (n, 3) [m], of a radius each, shape (n,) [m].
-
-    Finer ones between them count, too: they are searched by themselves, since of dense balls the
-    nearest ones do not reach as far.
-    """
+    """The union of balls around points, shape (n, 3) [m], of a radius each, shape (n,) [m]."""
 
     points: Array
     radius: Array
-    finer: Balls | None = None
 
     def depth(self, points: Array) -> Array:
         """How deep points, shape (n, 3) [m], are inside, shape (n,) [m]; negative outside."""
-        best = np.full(len(points), -np.inf) if self.finer is None else self.finer.depth(points)
+        best = np.full(len(points), -np.inf)
         for tree, radius in self._sizes:
             left, count = np.arange(len(points)), NEIGHBOURS
             while len(left) > 0:

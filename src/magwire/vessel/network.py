@@ -117,7 +117,7 @@ class Network:
         share = np.arange(1, BETWEEN + 1)[:, None, None] / (BETWEEN + 1.0)
         every = np.column_stack([self.points, self.radius])
         more = (every[a] + share * (every[b] - every[a])).reshape(-1, 4)
-        return Balls(self.points, self.radius, Balls(more[:, :3], more[:, 3]))
+        return Balls(np.concatenate([self.points, more[:, :3]]), np.append(self.radius, more[:, 3]))
 
     def extended(self, radii: float) -> Network:
         """The network with each open end made longer, by so many of its radii."""
