@@ -149,7 +149,7 @@ class SwingNumbers:
     """
 
     spacing: float = 0.36
-    coarse: float = 0.3
+    coarse: float = 0.24
     finer: tuple[float, ...] = (0.5, 0.25, 0.125)
     marginal: float = 1.15
     bound: float = 0.8
