@@ -247,20 +247,32 @@ class StableNavigator:
         It is found by going on, in whatever field that takes, until the wall holds the wire, and
         then back from there.
         """
-        scout, last = self._scout, knots[-1]
-        back = tuned.COURSE.stride * self.plan_every
-        farthest = self.model.system.wire.length - self.plan_every
+        last = self._next_held(knots[-1], self.plan_every)
+        if last is None:  # where the wall comes near a wire may be lost in a long step
+            last = self._next_held(knots[-1], 0.5 * self.plan_every)
+        if last is None:
+            return []
+        scout, back = self._scout, tuned.COURSE.stride * self.plan_every
         scout.forget()
         found: list[Knot] = []
         try:
-            while not self._swings.is_held(last.view):
-                if last.feed > min(knots[-1].feed + tuned.COURSE.scout * self._length, farthest):
-                    return []
-                *_, last = scout.advance(last, last.feed + self.plan_every)
-            scout.forget()
             while self._swings.is_held(last.view) and last.feed > knots[0].feed:
                 found.insert(0, last)
                 found[0], *_, last = scout.advance(last, last.feed - back)
         except NavigationError:
             pass
         return found
+
+    def _next_held(self, last: Knot, step: float) -> Knot | None:
+        """The first knot from one on, in steps of feed [m], at which the wall holds the wire."""
+        farthest = self.model.system.wire.length - step
+        end = min(last.feed + tuned.COURSE.scout * self._length, farthest)
+        self._scout.forget()
+        try:
+            while not self._swings.is_held(last.view):
+                if last.feed > end:
+                    return None
+                *_, last = self._scout.advance(last, last.feed + step)
+        except NavigationError:
+            return None
+        return last

@@ -171,7 +171,8 @@ class Swings:
                 landings = [self._pressed(place) for place in on]
             if not landings:
                 return []
-            places = self._places(starts[-1], tuned.SWING.spacing, highest, held=False)
+            apart = tuned.SWING.fine if self._uneven else tuned.SWING.spacing
+            places = self._places(starts[-1], apart, highest, held=False)
             for place, pressed in product(places, landings):
                 way = Way(leads, place, pressed, length)
                 nudged = [way._replace(nudge=n) for n in tuned.SWING.nudges]
@@ -265,14 +266,17 @@ class Swings:
         model.return_to(knot.snapshot)
         view = knot.view
         assert view is not None
-        for _ in range(tuned.SWING.programmes):
+        most, enough = tuned.SWING.programmes, tuned.SWING.settled
+        if self._uneven:
+            most, enough = tuned.SWING.patient, tuned.SWING.sharp
+        for _ in range(most):
             change = programme.aim(view, view.axes @ target, margin, bounds)
             if change is None:
                 return None
             there = self._go(view, change)
             if there is None or norm(model.flux) > tuned.SWING.detour * highest:
                 return None
-            settled = norm(there.flux - view.flux) < tuned.SWING.settled * programme.unit
+            settled = norm(there.flux - view.flux) < enough * programme.unit
             view = there
             off = (
                 programme.uneven(view) / (tuned.SWING.uneven * view.radius) if self._uneven else 0.0

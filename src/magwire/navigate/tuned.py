@@ -130,6 +130,8 @@ class SwingNumbers:
         Part by which the field must be less to be worth another try.
     close
         Distance from a place at which the tip is there, in the lumen's radius.
+    fine, patient, sharp
+        ``spacing``, ``programmes`` and ``settled`` where coils may be off: fewer ways do.
     stiffer
         Factor of the margin, at most, from one programme to the next, where coils that are off,
         each by itself, would move the tip too far.
@@ -149,7 +151,7 @@ class SwingNumbers:
     """
 
     spacing: float = 0.36
-    coarse: float = 0.3
+    coarse: float = 0.24
     finer: tuple[float, ...] = (0.5, 0.25, 0.125)
     marginal: float = 1.15
     bound: float = 0.8
@@ -167,6 +169,9 @@ class SwingNumbers:
     detour: float = 1.5
     gain: float = 0.005
     close: float = 0.05
+    fine: float = 0.12
+    patient: int = 12
+    sharp: float = 2e-3
     stiffer: float = 4.0
     uneven: float = 0.86
     uneven_bound: float = 0.93
