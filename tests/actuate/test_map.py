@@ -138,11 +138,12 @@ def test_a_turned_image_is_refused(tmp_path: Path) -> None:
         ),
         ("b.csv", "x,y,z,Bx,By,Bz\n0,0,0,1,1,1\n1,1,1,1,1,1\n", "6 points have none"),
         ("b.nc", "nothing", "must be NetCDF-3"),
+        ("b.nc", "\x89HDF", "received NetCDF-4, which is HDF5: write it with"),
         ("b.vti", "<VTKFile/>", "must be a VTK image"),
     ],
 )
 def test_faults(tmp_path: Path, name: str, text: str, sentence: str) -> None:
-    (tmp_path / name).write_text(text)
+    (tmp_path / name).write_bytes(text.encode("latin-1"))
     with pytest.raises(InputError) as raised:
         read_grid(tmp_path / name)
     assert sentence in str(raised.value)

@@ -88,7 +88,8 @@ def extremes(actuator: Actuator, point: ArrayLike, directions: ArrayLike | None 
         raise InputError("The set of fields is that of coils; received a magnet that moves.")
     programme = _Programme.of(actuator, where)
     best = [programme.most(aim) for aim in aims]
-    return Extremes(aims, np.array([value for value, _ in best]), np.array([u for _, u in best]))
+    flux = np.array([value for value, _ in best]) + 0.0  # no minus zero
+    return Extremes(aims, flux, np.array([u for _, u in best]))
 
 
 def spread(count: int) -> Array:

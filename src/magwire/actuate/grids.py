@@ -18,6 +18,7 @@ LARGEST = 256 * 1024 * 1024
 """Bytes of a file of a field."""
 ROUNDING = 1e-4
 """Positions may be off their place on the grid by this share of its step."""
+HDF = b"\x89HDF"
 PICKLED = (".pkl", ".pickle", ".npy", ".npz", ".joblib", ".dill")
 
 
@@ -155,6 +156,11 @@ def _csv(data: bytes, name: str) -> FieldGrid:
 def _netcdf(data: bytes, name: str) -> FieldGrid:
     from scipy.io import netcdf_file
 
+    if data.startswith(HDF):
+        raise InputError(
+            f"{name} must be NetCDF-3; received NetCDF-4, which is HDF5: write it with xarray's "
+            'format="NETCDF3_64BIT", or by nccopy -k classic.'
+        )
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")

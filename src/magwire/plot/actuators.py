@@ -155,6 +155,9 @@ def _draw_set(panel: Any, found: Extremes) -> None:
         )
     ax.set_xticks(np.radians([-90, 0, 90]), ["-y", "+x", "+y"])
     ax.set_yticks(np.radians([-60, 0, 60]), ["", "", ""])
+    ax.set_axisbelow(False)  # names of directions stand on the dots
+    for label in ax.get_xticklabels():
+        label.set_bbox({"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0})
     ax.set_title(
         "largest field by its direction, +z on top\n"
         f"worst {1e3 * found.worst:.3g} mT (▼), median {1e3 * found.median:.3g} mT, "
