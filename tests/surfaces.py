@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+import magwire as mw
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -47,6 +52,93 @@ def tube(centres: Array, radius: Callable[[Array, Array], Array], around: int):
             triangles += [np.column_stack([first, beside_above, above])]
             triangles += [np.column_stack([first, beside_first, beside_above])]
     return points.reshape(-1, 3), np.concatenate(triangles)
+
+
+def of_lumen(lumen: mw.Lumen, cell: float) -> tuple[Array, Indices]:
+    """Triangles of the wall of a lumen of balls, open at its ends, by surface nets.
+
+    Parameters
+    ----------
+    lumen
+        The lumen.
+    cell
+        Edge length of the cells [m]; each that the wall runs through has a corner of triangles,
+        which is then brought to where the gap is zero.
+    """
+    points = np.concatenate([branch.points for branch in lumen.branches])
+    room = 1.5 * lumen.radius_range[1]
+    low = points.min(axis=0) - room
+    count = np.ceil((points.max(axis=0) + room - low) / cell).astype(int)
+    axes = [low[k] + cell * np.arange(count[k]) for k in range(3)]
+    lattice = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    gap = lumen.gap(lattice)
+    inside = (np.isfinite(gap) & (gap > 0.0)).reshape(count)
+    corners = [inside[tuple(slice(k, n - 1 + k) for k, n in zip(c, count, strict=True))]
+               for c in np.ndindex(2, 2, 2)]  # fmt: skip
+    mixed = np.any(corners, axis=0) & ~np.all(corners, axis=0)
+    number = np.full(mixed.shape, -1)
+    number[mixed] = np.arange(int(mixed.sum()))
+    spots = low + cell * (np.argwhere(mixed) + 0.5)
+    quads = []
+    for k in range(3):  # four cells around each edge along axis k that crosses the wall
+        a, b = (axis for axis in range(3) if axis != k)
+        first = np.moveaxis(inside, (k, a, b), (0, 1, 2))
+        cells = np.moveaxis(number, (k, a, b), (0, 1, 2))
+        crossing = first[:-1, 1:-1, 1:-1] != first[1:, 1:-1, 1:-1]
+        around = [cells[:, i : i + crossing.shape[1], j : j + crossing.shape[2]][crossing]
+                  for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))]  # fmt: skip
+        turned = np.stack(around, axis=1)
+        outward = first[:-1, 1:-1, 1:-1][crossing] == (k != 1)
+        quads.append(np.where(outward[:, None], turned, turned[:, ::-1]))
+    four = np.concatenate(quads)
+    triangles = np.concatenate([four[:, [0, 1, 2]], four[:, [0, 2, 3]]])
+    for _ in range(4):  # to the wall, along the gap's gradient
+        step = 1e-2 * cell * np.eye(3)
+        gaps = [[lumen.gap(spots + side * e) for side in (1.0, -1.0)] for e in step]
+        gaps = np.array(gaps)
+        gaps[~np.isfinite(gaps).all(axis=1, keepdims=True).repeat(2, axis=1)] = 0.0
+        normal = (gaps[:, 0] - gaps[:, 1]).T
+        normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+        moved = np.clip(lumen.gap(spots), -cell, cell)[:, None] * normal
+        spots = spots - np.where(np.isfinite(moved), moved, 0.0)
+    gone = np.zeros(len(spots), dtype=bool)
+    for branch in lumen.branches:
+        for arc, side, is_open in (
+            (0.0, -1.0, branch.open_begin),
+            (branch.length, 1.0, branch.open_end),
+        ):
+            end, ahead = branch.curve.at(np.array([arc]))[0], branch.curve.at(np.array([arc]), 1)[0]
+            axis = side * ahead[:3] / np.linalg.norm(ahead[:3])
+            along = (spots - end[:3]) @ axis
+            off = np.linalg.norm(spots - end[:3] - along[:, None] * axis, axis=1)
+            gone |= is_open & (along > -0.2 * cell) & (along < 3.0 * end[3]) & (off < 2.2 * end[3])
+    triangles = triangles[~gone[triangles].any(axis=1)]
+    while True:  # rims without corners where they touch themselves
+        edges = np.sort(
+            np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+        )
+        unique, which, uses = np.unique(edges, axis=0, return_inverse=True, return_counts=True)
+        rim = np.bincount(unique[uses == 1].ravel(), minlength=len(spots))
+        loose = (uses[which] == 1).reshape(3, -1).sum(axis=0) > 1
+        bad = (rim > 2)[triangles].any(axis=1) | loose
+        if not bad.any():
+            break
+        triangles = triangles[~bad]
+    pairs = np.concatenate([triangles[:, :2], triangles[:, 1:]])
+    graph = coo_array((np.ones(len(pairs)), tuple(pairs.T)), shape=(len(spots),) * 2)
+    piece = connected_components(graph, directed=False)[1][triangles[:, 0]]
+    triangles = triangles[piece == np.bincount(piece).argmax()]
+    used, triangles = np.unique(triangles, return_inverse=True)
+    return spots[used], triangles.reshape(-1, 3)
+
+
+def write_stl(path: Path, points: Array, triangles: Indices) -> None:
+    """Triangles as binary STL, in the unit of the points."""
+    corners = points[triangles]
+    rows = np.zeros(len(triangles), dtype=[("n", "<f4", 3), ("v", "<f4", (3, 3)), ("a", "<u2")])
+    rows["n"] = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    rows["v"] = corners
+    path.write_bytes(bytes(80) + np.uint32(len(triangles)).tobytes() + rows.tobytes())
 
 
 def arc(bend_radius: float, turn: float, count: int) -> Array:

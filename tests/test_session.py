@@ -163,6 +163,22 @@ def test_a_recording_is_a_result(tmp_path: Path) -> None:
     np.testing.assert_allclose(result.feed[[10, 15]], [4e-3, 2e-3], atol=1e-9)
 
 
+@pytest.mark.parametrize("how", ["step", "interval", "advance", "restore"])
+def test_what_is_recorded_no_more_is_not_stepped(how: str) -> None:
+    with half_circle().session(record_every=0.1) as wire:
+        wire.step(feed_speed=4e-3)
+        before = wire.snapshot()
+    acts = {
+        "step": lambda: wire.step(feed_speed=4e-3),
+        "interval": lambda: wire.step(feed_speed=4e-3, duration=1.0),
+        "advance": lambda: wire.advance([mw.Command(4e-3)]),
+        "restore": lambda: wire.restore(before),
+    }
+    with pytest.raises(mw.InputError, match="has ended with its 'with' statement"):
+        acts[how]()
+    assert wire.observe().feed == before.feed
+
+
 def test_a_step_that_fails_leaves_the_wire_and_says_why() -> None:
     simulation = half_circle()
     with simulation.session(feed=0.03, record_every=1.0) as wire:

@@ -47,7 +47,9 @@ if TYPE_CHECKING:
     from magwire.navigate.tip import TipNavigator as TipNavigator
     from magwire.operate import Ending as Ending
     from magwire.operate import ForceLimit as ForceLimit
+    from magwire.perturbations import robustness as robustness
     from magwire.planning import Prospect as Prospect
+    from magwire.planning import Trial as Trial
     from magwire.planning import plan as plan
     from magwire.results import Result as Result
     from magwire.scenario import Scenario as Scenario
@@ -106,6 +108,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "StableNavigator": ("magwire.navigate.stable", "StableNavigator"),
     "Steering": ("magwire.navigate", "Steering"),
     "TimedInputs": ("magwire.navigate.timed", "TimedInputs"),
+    "Trial": ("magwire.planning", "Trial"),
     "TipNavigator": ("magwire.navigate.tip", "TipNavigator"),
     "UniformField": ("magwire.field", "UniformField"),
     "Vessel": ("magwire.vessel", "Vessel"),
@@ -118,6 +121,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "load_actuator": ("magwire.scenario", "load_actuator"),
     "load_scenario": ("magwire.scenario", "load"),
     "plan": ("magwire.planning", "plan"),
+    "robustness": ("magwire.perturbations", "robustness"),
     "run_many": ("magwire.many", "run_many"),
     "scenario_names": ("magwire.scenario", "names"),
 }
@@ -163,6 +167,7 @@ __all__ = [
     "Steering",
     "TimedInputs",
     "TipNavigator",
+    "Trial",
     "UniformField",
     "Vessel",
     "WallMotion",
@@ -175,6 +180,7 @@ __all__ = [
     "load_device",
     "load_scenario",
     "plan",
+    "robustness",
     "run_many",
     "scenario_names",
 ]

@@ -14,7 +14,7 @@ from magwire.engine.command import Command
 from magwire.engine.plant import Plant, Snapshot
 from magwire.engine.status import Status
 from magwire.errors import InputError, array, one_of, positive, whole
-from magwire.kernels.crew import SEEN, Orders, address_of, carry_out, count_steps, lay_out
+from magwire.kernels.crew import SEEN, Orders, carry_out, count_steps, lay_out
 from magwire.kernels.glance import GLANCE
 from magwire.simulation import Simulation
 
@@ -159,14 +159,14 @@ class Batch:
         """Note where a wire is in memory, and what belongs to it alone."""
         system, orders, body = plant.system, self._orders, plant.body
         first = self._plants[0].body
-        if body._numba_type_ != first._numba_type_ or len(plant.inputs) != orders.held.shape[1]:
+        if body.kind != first.kind or len(plant.inputs) != orders.held.shape[1]:
             raise InputError("Wires of Batch must have the same inputs; received different ones.")
         if not plant.source.affine:  # such a field is sampled anew in Python at every step
             raise InputError(
                 f"Wires of Batch must be in a field that is affine in space; received wire {i} in "
                 f"a {type(plant.source).__name__}, which takes a Session."
             )
-        orders.places[i] = address_of(body)
+        orders.places[i] = body.address
         orders.damping[i] = system.damping
         orders.patch[i] = system.patch / system.wire.length
         orders.turn[i] = system.mesh.rest_turn[-1]

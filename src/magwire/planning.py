@@ -46,6 +46,37 @@ AT_LIMIT = 0.98  # of the largest field, from which on it is what keeps a wire b
 
 
 @dataclass(frozen=True)
+class Trial:
+    """How the way to an outlet went where something was off; see ``mw.robustness``.
+
+    Attributes
+    ----------
+    change
+        What was off, such as "E +5 %".
+    reached
+        Whether the tip got there.
+    came
+        How far along the path it came [m].
+    peak_field
+        Largest flux density [T].
+    tip_force
+        Largest force of the wall on the tip [N].
+    clearance
+        Smallest clearance [m]; NaN if the wire did not set out.
+    reason
+        Why it did not get there, or "".
+    """
+
+    change: str
+    reached: bool
+    came: float
+    peak_field: float
+    tip_force: float
+    clearance: float
+    reason: str
+
+
+@dataclass(frozen=True)
 class Prospect:
     """What to expect on the path to an outlet.
 
@@ -77,6 +108,10 @@ class Prospect:
     feed, arc, flux_density, force
         The same along the path: feed [m], how far the tip came [m], flux density [T] and force on
         the whole wire [N], shapes (n,).
+    field_components
+        The flux density along x, y and z, shape (n, 3) [T].
+    trials
+        How it went where something was off; none if that was not tried (``mw.robustness``).
     """
 
     outlet: str
@@ -100,6 +135,13 @@ class Prospect:
     arc: Array = field(repr=False)
     flux_density: Array = field(repr=False)
     force: Array = field(repr=False)
+    field_components: Array = field(repr=False)
+    trials: tuple[Trial, ...] = ()
+
+    @property
+    def schedule(self) -> Schedule:
+        """The field as a function of the feed, to be replayed with ``mw.Prescribed``."""
+        return Schedule.along(list(zip(self.feed.tolist(), self.field_components, strict=True)))
 
 
 def plan(
@@ -232,30 +274,62 @@ def _prospect(
         arc=none,
         flux_density=none,
         force=none,
+        field_components=np.zeros((0, 3)),
     )
-    room = nothing.narrowest - (contact or Barrier()).keep_off(wire.radius)
-    if room <= 0.0:
+    if nothing.narrowest <= (contact or Barrier()).keep_off(wire.radius):
         return replace(
             nothing,
             reason=f"The wire is {2e3 * wire.radius:.4g} mm wide, the lumen "
             f"{2e3 * nothing.narrowest:.4g} mm at {1e3 * nothing.narrowest_at:.4g} mm.",
         )
-    goal = way.length - float(radii[-1])
+    course = course_to(lumen, wire, contact)
+    found = _travel(nothing, course, demands)
+    return _nearer(found, nothing, course, demands) if _has_spike(found) else found
+
+
+def _has_spike(found: Prospect) -> bool:
+    """Whether the field of a course is far larger in one place than elsewhere."""
+    sizes = found.flux_density[found.flux_density > 0.0]
+    return found.reached and len(sizes) > 0 and sizes.max() > tuned.OUTLET.spike * np.median(sizes)
+
+
+def _nearer(found: Prospect, nothing: Prospect, course: _Course, demands: Demands) -> Prospect:
+    """The course, or one with the tip nearer to the centreline if that takes less field.
+
+    Fields are planned one feed after the other. A wire that comes to a bend with its tip at the
+    rim of its room may need far more field there than one that comes along the middle.
+    """
+    for part in tuned.OUTLET.nearer:
+        clearance = demands.tip_clearance + part * (1.0 - demands.tip_clearance)
+        other = _travel(nothing, course, replace(demands, tip_clearance=clearance))
+        if other.reached and other.peak_field < found.peak_field:
+            said = (
+                f"Planned with tip_clearance {clearance:.3g}; with {demands.tip_clearance:.3g} it "
+                f"takes {1e3 * found.peak_field:.3g} mT."
+            )
+            return replace(other, reason=" ".join(filter(None, (said, other.reason))))
+    return found
+
+
+def course_to(lumen: Lumen, wire: Wire, contact: Barrier | None = None) -> _Course:
+    """How a wire that fits goes to the lumen's target; see ``plan``."""
+    way = lumen.path().branches[0]
+    radii = way.curve.at(way.curve.knots())[:, 3]
+    room = float(radii.min()) - (contact or Barrier()).keep_off(wire.radius)
     long = fitted(wire, tuned.OUTLET.slack * way.length)
     every = min(
         tuned.OUTLET.finest * long.length, tuned.OUTLET.pace * float(np.quantile(radii, 0.25))
     )
-    yielding = firm_wall(wire, nothing.bend.radius, min(tuned.OUTLET.gap, tuned.OUTLET.part * room))
-    step = min(LARGE * long.edge_length, LONGEST * every)
-    course = _Course(
+    gap = min(tuned.OUTLET.gap, tuned.OUTLET.part * room)
+    yielding = firm_wall(wire, way.bend_radius().radius, gap)
+    return _Course(
         planned=Simulation(long, lumen, contact=contact or yielding),
         replayed=_briskly(Simulation(long, lumen, contact=contact or Barrier())),
         feed=Feed(SPEED * long.length, tuned.OUTLET.slack * way.length),
         every=every,
-        step=step,
-        goal=goal,
+        step=min(LARGE * long.edge_length, LONGEST * every),
+        goal=way.length - float(radii[-1]),
     )
-    return _travel(nothing, course, demands)
 
 
 def _briskly(simulation: Simulation) -> Simulation:
@@ -351,6 +425,7 @@ def _travel(nothing: Prospect, course: _Course, demands: Demands) -> Prospect:
         arc=arc,
         flux_density=flux,
         force=result.wall_force,
+        field_components=np.array(result.field),
     )
     if found.reached:
         return found

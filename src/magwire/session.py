@@ -63,10 +63,9 @@ class Session:
         self.plant = plant
         self.time_step = positive("Session", "time_step", time_step, "s")
         self._inertia, self._recording = inertia, recording
-        self._due, self._recorded = 0.0, -1.0
+        self._due, self._recorded, self._closed = 0.0, -1.0, False
         self.assist: Assist | None = None
         self._length = plant.system.wire.length
-        self._inputs = plant.inputs
         self._record_if_due()
 
     def __enter__(self) -> Self:
@@ -85,6 +84,7 @@ class Session:
             writer.append(plant.record())
         if plant.status is not Status.CONVERGED:
             writer.close(RunStatus.NOT_CONVERGED, plant.message)
+        self._closed = True
         writer.__exit__(kind, error, trace)
 
     def step(
@@ -113,7 +113,7 @@ class Session:
         Raises
         ------
         InputError
-            If a value is not finite, or the duration is not positive.
+            If a value is not finite, the duration is not positive, or the recording has ended.
         ConvergenceError
             If a time step fails; the wire is as it was before that step.
         NavigationError
@@ -126,10 +126,14 @@ class Session:
             for _ in range(parts):
                 self.advance((self._assisted(each),))
             return
-        plant, given, dt = self.plant, self._inputs, self.time_step
+        if self._closed:
+            raise self._over()
+        plant, dt = self.plant, self.time_step
+        given = plant.wanted
         try:
-            feed = min(max(plant.feed + feed_speed * dt, 0.0), self._length)
-            twist = plant.twist + twist_rate * dt
+            feed, twist = plant.guided
+            feed = min(max(feed + feed_speed * dt, 0.0), self._length)
+            twist += twist_rate * dt
         except TypeError:
             Command(feed_speed, twist_rate, inputs)  # says which it is
             raise
@@ -138,9 +142,10 @@ class Session:
         given[:] = plant.state.inputs if inputs is None else inputs
         if not math.isfinite(feed_speed + twist_rate + sum(given.tolist())):
             Command(feed_speed, twist_rate, given)  # says which it is
-        if not plant.step(feed, twist, given, dt, inertia=self._inertia):
+        if not plant.step(feed, twist, dt, inertia=self._inertia):
             raise self._failed()
-        self._record_if_due()
+        if self._recording is not None:
+            self._record_if_due()
 
     def advance(self, commands: Sequence[Command]) -> None:
         """Carry out commands one after the other, in as few calls of compiled code as can be.
@@ -148,10 +153,13 @@ class Session:
         Raises
         ------
         InputError
-            If the inputs of a command are not as many as the actuator has.
+            If the inputs of a command are not as many as the actuator has, or the recording has
+            ended.
         ConvergenceError
             If a time step fails; the wire is as it was before that step.
         """
+        if self._closed:
+            raise self._over()
         feed, twist, inputs = self.plant.feed, self.plant.twist, self.plant.inputs
         rows: list[tuple[float, float, Array]] = []
         step = 0.0
@@ -207,6 +215,12 @@ class Session:
             self._record_if_due()
         if done < whole:
             raise self._failed()
+
+    def _over(self) -> InputError:
+        return InputError(
+            "Session has ended with its 'with' statement, and so has its recording; "
+            "begin another with Simulation.session."
+        )
 
     def _failed(self) -> ConvergenceError:
         plant = self.plant
@@ -296,6 +310,8 @@ class Session:
                 "Input snapshot of Session.restore must be a Snapshot; "
                 f"received {type(snapshot).__name__}."
             )
+        if self._closed:
+            raise self._over()
         self.plant.restore(snapshot)
         if self._recording is None:
             return

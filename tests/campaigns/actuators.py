@@ -1,15 +1,16 @@
 """The paper's cases in the fields of coils and a magnet: amperes, watts, fields, and replays.
 
-``python -m campaigns.actuators [CASE ...]`` writes the table of docs/coils.md anew: rows of the
-cases that are named, or of all. Calibration files of real systems are not part of magwire;
-MAGWIRE_SHARED_DATA says where they are.
+``python -m campaigns.actuators [--rows FILE] [CASE ...]`` writes the table of docs/coils.md anew:
+rows of the cases that are named, or of all. Rows go into the file as they are made, and those that
+are in it already are taken from there: a run that was ended goes on so. Calibration files of real
+systems are not part of magwire; MAGWIRE_SHARED_DATA says where they are.
 """
 
 from __future__ import annotations
 
+import argparse
 import re
-import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -35,7 +36,7 @@ HEAD = (
 CASES = ("half-circle", "sinusoid", "helix", "left-branch", "middle-branch", "right-branch")
 MARGINS = (20.0, 50.0, 120.0)  # tried one after the other [rad^2/s^2]; for a case at full size
 TOLERANCE = 0.03  # of the gains
-BY_MAGNET = 150.0  # the margin
+DISTANCES = (60.0, 50.0)  # that a magnet keeps from the vessel [mm]
 LENGTHS = re.compile(r"^(\S+) (mm|mm/s|1/m)$")
 
 
@@ -142,11 +143,12 @@ def steered(case: str, rig: Rig, objective: str, margin: float) -> Result:
     return parse(tomli_w.dumps(raw)).run()
 
 
-def by_magnet(case: str) -> Result:
-    """A case steered by the magnet of half-circle-magnet."""
+def by_magnet(case: str, distance: float, margin: float) -> Result:
+    """A case steered by the magnet of half-circle-magnet, at least so far [mm] from the vessel."""
     raw = parse_toml(text_of(case)[0])
-    raw["actuator"] = parse_toml(text_of("half-circle-magnet")[0])["actuator"]
-    raw["navigate"] = {"method": "stable", "stability_margin": f"{BY_MAGNET} 1/s^2"}
+    magnet = parse_toml(text_of("half-circle-magnet")[0])["actuator"]
+    raw["actuator"] = {**magnet, "keep_out": f"{distance!r} mm"}
+    raw["navigate"] = {"method": "stable", "stability_margin": f"{margin!r} 1/s^2"}
     raw["solver"]["time_step"] = "50 ms"
     raw["feed"]["speed"] = "2 mm/s"
     raw["output"] = {"record_every": "0.5 mm"}
@@ -184,7 +186,10 @@ def stays_free(result: Result) -> str:
 
 def brief(why: str) -> str:
     """The first sentence of a refusal, without advice."""
-    return why.splitlines()[0].split(": its gradient")[0].split(" It was tried again")[0]
+    said = why.splitlines()[0].split(" It was tried again")[0]
+    return said.split("; ask for")[0].replace(
+        ": its gradient pulls, or the wire is about to buckle", ""
+    )
 
 
 def row(case: str, rig: Rig) -> str:
@@ -219,33 +224,58 @@ def row(case: str, rig: Rig) -> str:
     )
 
 
-def magnet_row(case: str) -> str:
+def magnet_row(case: str, name: str, distance: float) -> str:
     """A row of the magnet on an arm."""
-    try:
-        result = by_magnet(case)
-    except MagwireError as error:
-        return f"| {case} | magnet | {BY_MAGNET:g} | {error} | | | | | |"
-    if result.status != "complete":
-        return f"| {case} | magnet | {BY_MAGNET:g} | {brief(result.message)} | | | | | |"
+    refused = ""
+    for margin in MARGINS:
+        try:
+            result = by_magnet(case, distance, margin)
+        except MagwireError as error:
+            return f"| {case} | {name} | | {error} | | | | | |"
+        if result.status == "complete":
+            break
+        refused = refused or result.message
+    else:
+        return f"| {case} | {name} | all | {brief(refused)} | | | | | |"
     way = 1e3 * np.linalg.norm(np.diff(result.inputs[:, :3], axis=0), axis=1).sum()
     peak = 1e3 * result.peak_field
     said = f"{way:.0f} mm of way | | | {peak:.1f} mT | | {stays_free(result)}"
-    return f"| {case} | magnet | {BY_MAGNET:g} | {said} |"
+    return f"| {case} | {name} | {margin:g} | {said} |"
 
 
-def main(cases: tuple[str, ...]) -> None:
+def made(case: str, rows: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+    """The rows of a case, by what they begin with; those that are there already as they are."""
+    for rig in rigs():
+        begins = f"| {case} | {rig.name} |"
+        yield begins, rows.get(begins) or row(case, rig)
+    for distance in DISTANCES:
+        name = f"magnet, {distance:g} mm"
+        begins = f"| {case} | {name} |"
+        yield begins, rows.get(begins) or magnet_row(case, name, distance)
+
+
+def main(cases: tuple[str, ...], kept: Path | None) -> None:
     """Write the table, row by row."""
     page = PAGE.read_text()
     before, rest = page.split("<!-- campaigns.actuators -->\n", maxsplit=1)
     _, after = rest.split("<!-- end -->\n", maxsplit=1)
-    rows: list[str] = []
+    lines = kept.read_text().splitlines() if kept is not None and kept.exists() else []
+    rows = {"|".join(line.split("|")[:3]) + "|": line for line in lines}
+    table = HEAD
     for case in cases:
-        for rig in (*rigs(), None):
-            rows.append(magnet_row(case) if rig is None else row(case, rig))
-            print(rows[-1], flush=True)
-            table = HEAD + "".join(f"{line}\n" for line in rows)
-            PAGE.write_text(f"{before}<!-- campaigns.actuators -->\n{table}<!-- end -->\n{after}")
+        for begins, line in made(case, rows):
+            table += f"{line}\n"
+            if begins not in rows:
+                print(line, flush=True)
+                if kept is not None:
+                    with kept.open("a") as file:
+                        file.write(f"{line}\n")
+    PAGE.write_text(f"{before}<!-- campaigns.actuators -->\n{table}<!-- end -->\n{after}")
 
 
 if __name__ == "__main__":
-    main(tuple(sys.argv[1:]) or CASES)
+    words = argparse.ArgumentParser()
+    words.add_argument("cases", nargs="*", default=CASES)
+    words.add_argument("--rows", type=Path)
+    told = words.parse_args()
+    main(tuple(told.cases), told.rows)

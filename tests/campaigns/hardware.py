@@ -1,7 +1,7 @@
 """The paper's cases in a stated Helmholtz set, replayed through hardware with errors of all signs.
 
-``python -m campaigns.hardware MARGIN TOLERANCE [CASE ...]`` prints, for a stability margin [1/s^2]
-and a gain tolerance, what docs/lab.md has in its last table.
+``python -m campaigns.hardware MARGIN TOLERANCE OBJECTIVE [CASE ...]`` prints, for a margin of
+stability [1/s^2], a gain tolerance and "field" or "power", what docs/lab.md has in its last table.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import numpy as np
 
 import magwire as mw
 from magwire.actuate import Circuit, Hardware, Helmholtz, Pair, Pose
+from magwire.navigate.allocation import Objective
 from magwire.scenario import inputs_of
 
 CASES = ("half-circle", "sinusoid", "helix", "left-branch", "middle-branch", "right-branch")
@@ -33,10 +34,10 @@ def platform(way: np.ndarray) -> Helmholtz:
     )
 
 
-def main(margin: float, tolerance: float, cases: tuple[str, ...]) -> None:
+def main(margin: float, tolerance: float, objective: Objective, cases: tuple[str, ...]) -> None:
     """Plan and replay."""
     demands = mw.Demands(stability_margin=margin, gain_tolerance=tolerance)
-    steering = mw.Allocated(mw.TipNavigator(demands, update_every=1e-3), objective="field")
+    steering = mw.Allocated(mw.TipNavigator(demands, update_every=1e-3), objective=objective)
     for case in cases:
         job = mw.load_scenario(case).build()
         system, feed = job.simulation.system, job.feed
@@ -67,4 +68,5 @@ def main(margin: float, tolerance: float, cases: tuple[str, ...]) -> None:
 
 
 if __name__ == "__main__":
-    main(float(sys.argv[1]), float(sys.argv[2]), tuple(sys.argv[3:]) or CASES)
+    which: Objective = "power" if sys.argv[3] == "power" else "field"
+    main(float(sys.argv[1]), float(sys.argv[2]), which, tuple(sys.argv[4:]) or CASES)

@@ -27,11 +27,11 @@ CASES = {
     "PILOT": PLANAR,
     "PROGRAMME": PLANAR,
     "COURSE": PLANAR,
-    "SWING": ("helix",),  # two minutes a row
+    "SWING": ("helix",),
     "OUTLET": ("end-2", "end-3"),
 }
 CORONARY = Path(__file__).parents[2] / "examples/data/coronary_lca_centerlines_multimoda.vtp"
-WHOLE = {"programmes", "halvings", "beyond", "tries", "halves"}
+WHOLE = {"programmes", "halvings", "beyond", "tries", "halves", "stride"}
 
 
 def changed(name: str, value: float) -> Iterator[tuple[float, object]]:

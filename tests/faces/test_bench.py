@@ -79,6 +79,15 @@ def test_steps_from_python_lead_to_the_same_place(quick: tuple[str, dict[str, An
     assert "15  Steps given from Python" in page
 
 
+def test_fields_of_coils_stand_next_to_a_uniform_one(quick: tuple[str, dict[str, Any]]) -> None:
+    page, results = quick
+    uniform, *coils = results["actuators"]
+    assert not uniform["points"]
+    assert all(row["points"][0]["seconds"] > 0.0 for row in coils)
+    assert {row["samples"][0]["steps"] for row in results["actuators"]} == {1000}
+    assert "16  Fields of coils" in page
+
+
 def test_page_of_the_documentation_is_made_of_its_samples(
     capsys: pytest.CaptureFixture[str],
 ) -> None:

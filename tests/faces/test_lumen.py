@@ -22,8 +22,9 @@ def file(tmp_path: Path) -> Path:
 
 
 def test_inspect_says_what_is_there(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["lumen", "inspect", str(file)]) == 0
-    out = capsys.readouterr().out
+    assert main(["lumen", "inspect", str(file)]) == 1  # a run would not take what is likely
+    out, err = capsys.readouterr()
+    assert "which does not state them; its numbers look like 'mm'" in err
     assert "2 centrelines with 242 points" in out
     assert "not stated; the numbers look like mm, which is taken here" in out
     assert "1  end-1" in out
@@ -45,7 +46,7 @@ def test_inspect_says_what_is_there(file: Path, capsys: pytest.CaptureFixture[st
 def test_inspect_says_whether_a_wire_gets_there(
     words: tuple[str, ...], verdict: str, file: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["lumen", "inspect", str(file), *words]) == 0
+    assert main(["lumen", "inspect", str(file), "--units", "mm", *words]) == 0
     rows = [line for line in capsys.readouterr().out.splitlines() if line.startswith("end-")]
     assert len(rows) == 2
     assert all(verdict in row for row in rows)
@@ -55,7 +56,8 @@ def test_inspect_draws(file: Path, tmp_path: Path) -> None:
     import matplotlib.image
 
     picture = tmp_path / "vessel.png"
-    assert main(["lumen", "inspect", str(file), "--picture", str(picture), "--wire", "1 mm"]) == 0
+    words = ["--units", "mm", "--picture", str(picture), "--wire", "1 mm"]
+    assert main(["lumen", "inspect", str(file), *words]) == 0
     image = matplotlib.image.imread(picture)
     assert image.shape[1] == pytest.approx(2126, abs=2)
     assert np.ptp(image[..., :3], axis=(0, 1)).min() > 0.5
@@ -68,9 +70,10 @@ def test_inspect_finds_flipped_axes(
     lines = [((p + [40, 9, 0]) * [-1, -1, 1], r) for p, r in vessel_files.fork()]
     other.write_bytes(vessel_files.vtp(lines=lines))
     file.write_bytes(vessel_files.vtp(lines=[(p + [40, 9, 0], r) for p, r in vessel_files.fork()]))
-    assert main(["lumen", "inspect", str(file), "--compare", str(other)]) == 0
+    inspect = ["lumen", "inspect", str(file), "--units", "mm"]
+    assert main([*inspect, "--compare", str(other)]) == 0
     assert "The axes x and y of" in capsys.readouterr().out
-    assert main(["lumen", "inspect", str(file), "--compare", str(file)]) == 0
+    assert main([*inspect, "--compare", str(file)]) == 0
     assert "are the same" in capsys.readouterr().out
 
 

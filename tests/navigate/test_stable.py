@@ -29,7 +29,7 @@ PEAKS = {
     "half-circle-narrow": 184.1,
     "half-circle-wide": 157.4,
     "sinusoid": 111.8,
-    "helix": 314.2,
+    "helix": 309.8,
 }
 
 

@@ -14,6 +14,7 @@ from actuate.handed import FOLDER, needs_files
 from magwire import Result
 from magwire.actuate import Helmholtz, Loops, Magnet, Map, Maxwell, Omnimagnet, Uniform
 from magwire.errors import InputError, ScenarioError
+from magwire.navigate import arm
 from magwire.navigate.inputs import InputSchedule
 from magwire.scenario import inputs_of, load_actuator, parse, read_inputs, write_inputs
 from magwire.scenario.reader import load, text_of
@@ -449,7 +450,10 @@ def test_the_half_circle_by_a_magnet_keeps_tip_and_magnet_clear() -> None:
     assert replayed(result).run().max_tip_force == 0.0
 
 
-def test_a_magnet_that_is_too_weak_says_that_it_is_as_near_as_it_may() -> None:
+def test_a_magnet_that_is_too_weak_says_that_it_is_as_near_as_it_may(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(arm, "AROUND", 4)
     result = load("half-circle-magnet", [*QUICK, "actuator.remanence=0.6 T"]).run()
     assert result.status == "no field"
     assert "mm of feed the magnet is " in result.message

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from magwire.errors import InputError
+from magwire.vessel import Vessel
 from magwire.vessel.balls import Balls
 from magwire.vessel.skin import Skin
 
@@ -45,3 +50,30 @@ def test_depth_in_balls_of_many_sizes() -> None:
     inside = every > -0.5 * radius[np.searchsorted(s, points[:, 0])]
     assert np.abs(found - every)[inside].max() < 0.01
     assert np.all(found <= every + 1e-12)
+
+
+def test_depth_in_a_cylinder_of_slender_triangles_is_that_of_all_of_them() -> None:
+    cylinder = trimesh.creation.cylinder(5.0, 80.0, sections=40)
+    skin = Skin(np.array(cylinder.vertices), np.array(cylinder.faces), np.zeros((1, 3)))
+    points = RNG.uniform([-4.0, -4.0, -38.0], [4.0, 4.0, 38.0], (500, 3))
+    points = points[np.hypot(points[:, 0], points[:, 1]) < 4.9]
+    turned = np.arctan2(points[:, 1], points[:, 0]) % (np.pi / 20.0) - np.pi / 40.0
+    side = 5.0 * np.cos(np.pi / 40.0) - np.hypot(points[:, 0], points[:, 1]) * np.cos(turned)
+    exact = np.minimum(side, 40.0 - np.abs(points[:, 2]))
+    assert skin.depth(points) == pytest.approx(exact, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("made", "message"),
+    [
+        (lambda: trimesh.creation.torus(25.0, 8.0), "closed surface that goes round in a loop"),
+        (lambda: trimesh.creation.annulus(5.0, 7.0, 30.0), "surface that goes round in a loop"),
+        (lambda: trimesh.creation.icosphere(3, 30.0), "has a surface that is no tube"),
+    ],
+)
+def test_shapes_that_are_no_tube_are_refused(
+    made: Callable[[], trimesh.Trimesh], message: str, tmp_path: Path
+) -> None:
+    made().export(tmp_path / "a.stl")
+    with pytest.raises(InputError, match=message):
+        Vessel.read(tmp_path / "a.stl", "mm")

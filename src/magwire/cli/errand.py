@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
@@ -16,7 +16,8 @@ from magwire.errors import InputError, one_of, positive
 from magwire.lumen import Lumen
 from magwire.lumen.names import meant
 from magwire.navigate.demands import Demands
-from magwire.planning import Prospect, plan
+from magwire.perturbations import CHANGES, tried
+from magwire.planning import Prospect, Trial, plan
 from magwire.units import parse
 from magwire.vessel import Source, Vessel
 from magwire.wire import Wire
@@ -140,11 +141,35 @@ def carried_out(work: Work, names: Sequence[str], workers: int = 1) -> Iterator[
         )
 
 
+def checked(
+    work: Work, prospects: Sequence[Prospect], workers: int = 1
+) -> Iterator[tuple[str, Trial]]:
+    """Try the ways to outlets, as many changes at a time as there are workers.
+
+    Yielded as they are done, with the outlet's name.
+    """
+    orders = [(change, prospect) for prospect in prospects for change in CHANGES]
+    if workers > 1:
+        from magwire.many.planners import Check, Task, check_at_once
+
+        task = Task(work.lumen, work.wire, work.demands, work.contact)
+        yield from check_at_once(task, [Check(*order) for order in orders], workers)
+        return
+    for order in orders:
+        yield order[1].outlet, tried(*order, work.lumen, work.wire, work.demands, work.contact)
+
+
+def in_order(trials: Sequence[Trial]) -> tuple[Trial, ...]:
+    """Trials in the order in which they are listed, whichever was done first."""
+    return tuple(sorted(trials, key=lambda trial: CHANGES.index(trial.change)))
+
+
 def fingerprint(work: Work) -> str:
     """A few letters that are the same for the same lumen, wire, demands, wall and version only."""
     from magwire import __version__
 
-    seen = hashlib.sha256(repr((__version__, work.wire.nodes)).encode())
+    known = [one.name for one in fields(Prospect)]
+    seen = hashlib.sha256(repr((__version__, known, work.wire.nodes)).encode())
     seen.update(repr((work.wire.sections, work.demands, work.contact)).encode())
     ways = work.lumen.paths or {"outlet": work.lumen.branches[0]}
     for name in sorted(ways):

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from magwire.cli.words import CommandError
 from magwire.files import write_whole
 from magwire.units import parse
 from magwire.vessel import Spot, Vessel
 from magwire.vessel.files import Line, netcdf, vtp
+from magwire.vessel.files.drawing import NO_WAY
 
 if TYPE_CHECKING:
     from magwire.lumen import Lumen
@@ -56,7 +57,8 @@ def write(
     factor = MM if out.suffix == ".vtp" else 1.0
     tubes = vessel.tubes.items()
     lines = [Line(name, factor * tube.points, factor * tube.radius) for name, tube in tubes]
-    ends = (vessel.entrance, *vessel.tubes)
+    lines += [Line(NO_WAY, factor * balls[:, :3], factor * balls[:, 3]) for balls in vessel.trunks]
+    ends = (vessel.entrance, *(line.name for line in lines))
     try:
         if out.suffix == ".vtp":
             vtp.write(out, lines, ends)
@@ -76,7 +78,8 @@ def draw(vessel: Vessel, path: Path, wire: str | None) -> None:
     tubes = {name: tube.centreline() for name, tube in vessel.tubes.items()}
     radius = None if wire is None else 0.5 * parse(wire, "diameter", "--wire")
     try:
-        vessels.save(tubes, path, radius, vessel.surface)
+        trunks = [(balls[:, :3], balls[:, 3]) for balls in vessel.trunks]
+        vessels.save(tubes, path, radius, vessel.surface, trunks=trunks)
     except (OSError, ValueError) as error:
         why = str(error).splitlines()[0].rstrip(".")
         raise CommandError(f"Picture '{path}' cannot be written: {why}.") from None
@@ -85,9 +88,15 @@ def draw(vessel: Vessel, path: Path, wire: str | None) -> None:
 def _toml(vessel: Vessel, lumen: Lumen) -> str:
     import tomli_w
 
-    from magwire.scenario.kinds.lumen.vessel import rows_of, surface_of
+    from magwire.scenario.kinds.lumen.vessel import rows_of, surface_of, trunks_of
 
-    table = {"shape": "vessel", "target": str(lumen.target), "branches": rows_of(vessel)}
+    table: dict[str, Any] = {
+        "shape": "vessel",
+        "target": str(lumen.target),
+        "branches": rows_of(vessel),
+    }
+    if vessel.trunks:
+        table |= {"trunks": trunks_of(vessel)}
     if lumen.sheet is not None:
         table |= {"wall": "surface", "surface": surface_of(lumen.sheet)}
     return tomli_w.dumps({"lumen": table})

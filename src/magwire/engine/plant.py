@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +21,7 @@ from magwire.engine.sampling import SAMPLINGS, mismatch, sample, unsampled_stiff
 from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.field import FieldSource
+from magwire.kernels._handle import resolved
 from magwire.kernels.arrays import Field, Mouth, State, Tube
 from magwire.kernels.body import (
     Body,
@@ -26,7 +29,6 @@ from magwire.kernels.body import (
     Queue,
     advance,
     look,
-    make_body,
     place_wall,
     rest,
     survey,
@@ -101,6 +103,8 @@ class Plant:
         Simulated [s].
     status, message
         How the last step ended; what happened and what to try if it failed.
+    wanted
+        Inputs of the actuator at the end of the next single step, to be filled in, shape (m,).
     model, field, state, work
         Rod, field, state and workspace of the wire, as the kernels hold them.
     """
@@ -141,38 +145,51 @@ class Plant:
         self._sheet = sheet_of(self._row, self._kind)
         inputs = len(self.state.inputs)
         self._queue = Queue(np.zeros(QUEUE), np.zeros(QUEUE), np.zeros((QUEUE, inputs)))
+        self.wanted = self._queue.inputs[0]
         known = self.model, path, system.guide, self.state, self.work, limits, self._tally
         self._parts = Parts(*known, self._queue, self._sheet)
-        self._body = make_body(self._parts)
+        self._body = Body(self._parts)
+        self._units = system.scales.length, system.scales.force
         self._patch = system.patch / system.wire.length
         self._turn = tuple(system.mesh.rest_turn[-1].tolist())
         self._seen = np.zeros(GLANCE)
         self._counted = np.zeros(4)
+        self._advance = resolved(advance, self._body, 0, 1.0, 1.0, True)
+        self._advance(self._body, 0, 1.0, 1.0, True)  # the sources are as the inputs are
         self._began = time.perf_counter()
-        none = np.zeros(0)
-        self.march(none, none, np.zeros((0, len(self.inputs))), 1.0, inertia=True)  # compiles
-        self._began = time.perf_counter()
+
+    @cached_property
+    def _look(self) -> Callable[..., None]:
+        return resolved(look, self._body, *self._units, self._patch, self._turn, self._seen)
+
+    @cached_property
+    def _survey(self) -> Callable[..., None]:
+        return resolved(survey, self._body, *self._units)
 
     @property
     def body(self) -> Body:
         """The wire as compiled code refers to it."""
-        body: Body = self._body
-        return body
+        return self._body
 
     def hand(self) -> Body:
         """The wire with another workspace, for one of several threads; see ``kernels.crew``."""
-        body: Body = make_body(self._parts._replace(work=self.system.new_work()))
-        return body
+        return Body(self._parts._replace(work=self.system.new_work()))
+
+    @property
+    def guided(self) -> tuple[float, float]:
+        """``feed`` and ``twist``."""
+        feed, twist = self.state.guide.tolist()
+        return feed * self._units[0], twist
 
     @property
     def feed(self) -> float:
         """Length of wire past the entrance [m]."""
-        return float(self.state.guide[0]) * self.system.wire.length
+        return self.guided[0]
 
     @property
     def twist(self) -> float:
         """Angle by which the guide has turned the wire about its axis [rad]."""
-        return float(self.state.guide[1])
+        return self.guided[1]
 
     @property
     def inputs(self) -> Array:
@@ -211,27 +228,27 @@ class Plant:
         self._ended(status, drive.feed[done] if done < len(feed) else 0.0)
         return done
 
-    def step(self, feed: float, twist: float, inputs: Array, dt: float, *, inertia: bool) -> bool:
-        """A single step, as ``advance`` does it, in less time; whether it converged.
+    def step(self, feed: float, twist: float, dt: float, *, inertia: bool) -> bool:
+        """A single step to the inputs ``wanted``, as ``advance`` does it, in less time.
+
+        Returns whether it converged.
 
         Parameters
         ----------
         feed, twist
             Where the guide is at its end [m, rad].
-        inputs
-            What the actuator has at its end, shape (m,).
         dt
             Its length [s].
         inertia
             Without it the step is an equilibrium.
         """
         if not self.source.affine:
-            drive = Drive(np.array([feed]), np.array([twist]), inputs[None], dt, inertia)
+            inputs = self.wanted[None].copy()
+            drive = Drive(np.array([feed]), np.array([twist]), inputs, dt, inertia)
             return self.advance(drive) == 1
         queue = self._queue
-        queue.feed[0], queue.twist[0] = feed / self.system.wire.length, twist
-        queue.inputs[0] = inputs
-        done, status = advance(self._body, 1, dt, self.system.damping, inertia)
+        queue.feed[0], queue.twist[0] = feed / self._units[0], twist
+        done, status = self._advance(self._body, 1, dt, self.system.damping, inertia)
         self.time += done * dt
         if status != CONVERGED or self.message:
             self._ended(status, feed)
@@ -272,7 +289,7 @@ class Plant:
             some = slice(done, done + count)
             queue.feed[:count], queue.twist[:count] = feed[some], twist[some]
             queue.inputs[:count] = inputs[some]
-            now, status = advance(self._body, count, dt, self.system.damping, inertia)
+            now, status = self._advance(self._body, count, dt, self.system.damping, inertia)
             done += now
             if done == whole or status != CONVERGED:
                 return done, status
@@ -318,21 +335,13 @@ class Plant:
 
     def observe(self) -> Observation:
         """What can be seen of the wire now, without a record of all its nodes."""
-        seen, scales = self._seen, self.system.scales
-        look(self._body, self._patch, self._turn, seen)
-        tip, direction = seen[:3] * scales.length, seen[3:6].copy()
-        force, forces, patch, clearance = seen[6:].tolist()
+        self._look(self._body, *self._units, self._patch, self._turn, self._seen)
+        seen = self._seen.copy()
+        feed, twist = self.guided
+        tip, direction, inputs = seen[:3], seen[3:6], self.state.inputs.copy()
+        force, forces, patch, clear = seen[6:].tolist()
         return Observation(
-            self.time,
-            self.feed,
-            self.twist,
-            tip,
-            direction,
-            force * scales.force,
-            forces * scales.force,
-            patch * scales.force,
-            clearance * scales.length,
-            self.state.inputs.copy(),
+            self.time, feed, twist, tip, direction, force, forces, patch, clear, inputs
         )
 
     @property
@@ -401,8 +410,8 @@ class Plant:
 
     def survey(self) -> Record:
         """What there is to see of the wire now; nothing is counted or noted by it."""
-        system, scales, sheet = self.system, self.system.scales, self._sheet
-        survey(self._body, scales.length, scales.force)
+        system, sheet = self.system, self._sheet
+        self._survey(self._body, *self._units)
         numbers, tip, flux = sheet.numbers, sheet.position[-1:], sheet.flux_density
         flux += self.source.at(tip)[0][0]
         if math.isnan(numbers[TIP_OFFSET]):

@@ -106,7 +106,7 @@ class Kernel(CPUDispatcher):  # type: ignore[misc]
 
     def __call__(self, *args: object) -> object:
         if self._door is None:
-            self._door = _compiled(_under_another_name(self.py_func), _nrt=False)
+            self._door = entry(_under_another_name(self.py_func))
         return self._door(*args)
 
     def enable_caching(self) -> None:
@@ -150,8 +150,9 @@ def short(function: Function) -> Function:
 
 
 def entry(function: Function) -> Function:
-    """Compile what follows references to arrays and calls kernels; cached as they are."""
-    return _compiled(function)
+    """Compile what only Python calls, with the way in from there; cached as kernels are."""
+    made: Function = numba.njit(cache=CACHE is not None, _nrt=False, **SHARED)(function)
+    return made
 
 
 def summing(function: Function) -> Function:
@@ -162,11 +163,6 @@ def summing(function: Function) -> Function:
     with the arithmetic.
     """
     return _inner(function, fastmath={"reassoc", "contract"})
-
-
-def _compiled(function: Function, **more: object) -> Function:
-    made: Function = numba.njit(cache=CACHE is not None, **SHARED, **more)(function)
-    return made
 
 
 def _inner(function: Function, **more: object) -> Function:

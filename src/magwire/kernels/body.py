@@ -1,17 +1,14 @@
 """A moving wire as one object for compiled code.
 
-A call pays for every array that is handed over: seventy of them cost more than a time step. The
-body is one reference instead. To follow it takes numba's runtime, which the kernels are without:
-the functions here do nothing else.
+A call pays for every array that is handed over: seventy of them cost more than a time step. A body
+is one handle instead; the functions here look up what lies behind it, and do nothing else.
 """
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-from numba import types
-from numba.experimental import structref
-
+from magwire.kernels._handle import Handle, parts_of
 from magwire.kernels._jit import entry, kernel
 from magwire.kernels.arrays import Array, Field, Guide, Motion, Mouth, Rod, State, Wall, Work
 from magwire.kernels.centreline import LumenArrays
@@ -52,22 +49,11 @@ class Parts(NamedTuple):
     sheet: Sheet
 
 
-@structref.register
-class BodyType(types.StructRef):  # type: ignore[misc]
-    """Numba's type of a body."""
+class Body(Handle):
+    """The parts of a moving wire, behind one address."""
 
-
-class Body(structref.StructRefProxy):  # type: ignore[misc]
-    """The parts of a moving wire, behind one reference; ``make_body`` makes one."""
-
-
-structref.define_proxy(Body, BodyType, ["parts"])
-
-
-@entry
-def make_body(parts):
-    """The body of some parts, which stay where they are."""
-    return Body(parts)
+    def __init__(self, parts: Parts) -> None:
+        super().__init__(parts)
 
 
 @entry
@@ -76,7 +62,7 @@ def advance(body, count, time_step, damping, inertia):
 
     They are taken from the body: a call that hands over arrays costs as much as a short step.
     """
-    p = body.parts
+    p = parts_of(body)
     feed, twist, inputs = p.queue
     drive = Drive(feed[:count], twist[:count], inputs[:count], time_step, damping, inertia)
     return march(p.model, p.guide, p.state, p.work, p.limits, drive, p.tally)
@@ -85,7 +71,7 @@ def advance(body, count, time_step, damping, inertia):
 @entry
 def place_wall(body):
     """Put the wall where it is at the state's time, if it moves."""
-    p = body.parts
+    p = parts_of(body)
     time = p.state.clock[0]
     move_wall(p.model[3].moving, p.model[2], time, time)
 
@@ -93,7 +79,7 @@ def place_wall(body):
 @entry
 def rest(body, limits):
     """Newton's method to the equilibrium nearby; see ``newton``."""
-    p = body.parts
+    p = parts_of(body)
     mouth = mouth_of(p.model[0], p.guide, p.state)
     return newton(p.model, p.state, mouth, Motion(0.0, p.work.target), p.work, limits)
 
@@ -101,7 +87,7 @@ def rest(body, limits):
 @entry
 def linearised(body, linear):
     """Linearise the equilibrium about its uniform field; see ``linearise``."""
-    p = body.parts
+    p = parts_of(body)
     mouth = mouth_of(p.model[0], p.guide, p.state)
     return linearise(p.model, p.state, mouth, p.work, linear)
 
@@ -109,7 +95,7 @@ def linearised(body, linear):
 @entry
 def survey(body, length, force):
     """Put what the guide holds in its place and fill the sheet; see ``observe``."""
-    p = body.parts
+    p = parts_of(body)
     mouth = mouth_of(p.model[0], p.guide, p.state)
     scales = (length, force)
     read_friction(
@@ -128,7 +114,11 @@ def mouth_of(rod, guide, state):
 
 
 @entry
-def look(body, patch, turn, seen):
-    """Fill ``seen`` with a glance at the wire."""
-    p = body.parts
+def look(body, length, force, patch, turn, seen):
+    """Fill ``seen`` with a glance at the wire, in units of length and force."""
+    p = parts_of(body)
     glance(p.model, p.state, p.work, patch, turn, seen)
+    for c in range(3):
+        seen[c] *= length
+        seen[6 + c] *= force
+    seen[9] *= length

@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 from llvmlite import ir
 from numba import types
-from numba.experimental.structref import _Utils
 from numba.extending import intrinsic
 from numpy import int64
 
+from magwire.kernels._handle import parts_at, parts_of
 from magwire.kernels._jit import entry, kernel, part
 from magwire.kernels.arrays import Array, Index
 from magwire.kernels.glance import GLANCE, glance
@@ -54,28 +54,6 @@ class Orders(NamedTuple):
     guide: Array
     held: Array
     next: Index
-
-
-@intrinsic
-def address(context, body):
-    """Where the parts of a body are in memory."""
-
-    def codegen(context, builder, signature, args):
-        pointer = _Utils(context, builder, signature.args[0]).get_data_struct(args[0])
-        return builder.ptrtoint(pointer._get_ptr_by_name("parts"), ir.IntType(64))
-
-    return types.int64(body), codegen
-
-
-@intrinsic
-def parts_at(context, place, like):
-    """The parts at an address, which must be of the type of ``like``."""
-
-    def codegen(context, builder, signature, args):
-        stored = context.get_value_type(signature.return_type)
-        return builder.load(builder.inttoptr(args[0], stored.as_pointer()))
-
-    return like(place, like), codegen
 
 
 @intrinsic
@@ -194,15 +172,9 @@ def lay_out(speed, rate, wanted, time, step, slack, length, orders):
 
 
 @entry
-def address_of(body):
-    """Where the parts of a body are in memory; they stay there as long as it lives."""
-    return address(body)
-
-
-@entry
 def carry_out(hand, orders, inertia):
     """Carry out orders until none is left; threads may do so at once, each with a hand of its own.
 
     hand: a body like the others, of which the workspace is used.
     """
-    work_off(hand.parts, orders, inertia)
+    work_off(parts_of(hand), orders, inertia)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import cos, inf, sin, sqrt
 
-from magwire.kernels._jit import kernel, part
+from magwire.kernels._jit import kernel, part, short
 from magwire.kernels.hinge import material_frame
 from magwire.kernels.lanes import clear_rows
 from magwire.kernels.vectors import combine, dot, norm, row, scale, sub
@@ -36,34 +36,37 @@ def tip_direction(state, turn):
 
 
 @part
-def force_up_to(rod, gradient, place):
-    """Sum of the wall's forces on the wire behind a place; a cell's is spread over it evenly."""
-    total = 0.0
-    for i in range(1, gradient.shape[0]):
-        begin = rod.cell_end[i - 1] if i > 1 else 0.0
-        share = (place - begin) / (rod.cell_end[i] - begin)
-        if share <= 0.0:
-            break
-        g = row(gradient, i)
-        total += min(share, 1.0) * sqrt(dot(g, g))
-    return total
+def force_up_to(rod, sums, place, i):
+    """Sum of the wall's forces behind a place, and the node whose cell holds it, i or a later one.
+
+    sums: as in ``largest_over``; a node's force is spread over its cell evenly.
+    """
+    while rod.cell_end[i] < place and i < rod.cell_end.shape[0] - 1:
+        i += 1
+    begin = rod.cell_end[i - 1] if i > 1 else 0.0
+    share = (place - begin) / (rod.cell_end[i] - begin)
+    return sums[i - 1] + min(max(share, 0.0), 1.0) * (sums[i] - sums[i - 1]), i
 
 
 @part
-def largest_over(rod, gradient, held, patch):
-    """Largest sum of the wall's forces over a stretch of wire: one of its ends is a cell's."""
-    nodes = gradient.shape[0]
-    length = rod.station[nodes - 1]
-    best = 0.0
-    for i in range(held, nodes):
-        g = row(gradient, i)
-        if g[0] == 0.0 and g[1] == 0.0 and g[2] == 0.0:
+def largest_over(rod, sums, held, patch):
+    """Largest sum of the wall's forces over a stretch of wire: one of its ends is a cell's.
+
+    sums: of the forces up to each node, from held - 1 on.
+    """
+    length = rod.station[rod.station.shape[0] - 1]
+    best, a, b, c, d = 0.0, held, held, held, held
+    for i in range(held, rod.station.shape[0]):
+        if sums[i] == sums[i - 1]:
             continue
-        before = rod.cell_end[i - 1] if i > 1 else 0.0
-        for begin in (before, rod.cell_end[i] - patch):
-            begin = min(max(begin, 0.0), length - patch)
-            force = force_up_to(rod, gradient, begin + patch) - force_up_to(rod, gradient, begin)
-            best = max(best, force)
+        begin = min(rod.cell_end[i - 1] if i > 1 else 0.0, length - patch)
+        before, a = force_up_to(rod, sums, begin, a)
+        behind, b = force_up_to(rod, sums, begin + patch, b)
+        best = max(best, behind - before)
+        begin = min(max(rod.cell_end[i] - patch, 0.0), length - patch)
+        before, c = force_up_to(rod, sums, begin, c)
+        behind, d = force_up_to(rod, sums, begin + patch, d)
+        best = max(best, behind - before)
     return best
 
 
@@ -83,7 +86,7 @@ def least_clearance(rod, lumen, wall, state, held):
     return least
 
 
-@kernel
+@short
 def glance(model, state, work, patch, turn, seen):
     """Fill ``seen`` [GLANCE], scaled; patch: length over which the largest force is looked for."""
     rod, _, wall, lumen = model
@@ -95,12 +98,14 @@ def glance(model, state, work, patch, turn, seen):
         seen[3 + c] = along[c]
     clear_rows(work.gradient, 0, last + 1)
     _, nearest = add_walls(rod, lumen, wall, state, held, work.gradient, work.no_band)
-    total = 0.0
+    total, sums = 0.0, work.step
+    sums[held - 1] = 0.0
     for i in range(held, last + 1):
         g = row(work.gradient, i)
         total += sqrt(dot(g, g))
+        sums[i] = total
     g = row(work.gradient, last)
     seen[6] = sqrt(dot(g, g))
     seen[7] = total
-    seen[8] = largest_over(rod, work.gradient, held, patch) if total > 0.0 else 0.0
+    seen[8] = largest_over(rod, sums, held, patch) if total > 0.0 else 0.0
     seen[9] = least_clearance(rod, lumen, wall, state, held)

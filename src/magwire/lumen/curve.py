@@ -50,20 +50,24 @@ class Curve:
         -------
         Shape (n, 4): x, y, z and R.
         """
-        inside = np.clip(s, 0.0, self.length)
+        a, t, beyond = self._pieces(s)
+        if derivative == 2:
+            return _second(a, t, beyond)
+        first = _first(a, t)
+        return first if derivative == 1 else _point(a, t) + beyond * first
+
+    def jet(self, s: Array) -> tuple[Array, Array, Array]:
+        """What ``at`` gives, to the bit, for the derivatives 0, 1 and 2."""
+        a, t, beyond = self._pieces(s)
+        first = _first(a, t)
+        return _point(a, t) + beyond * first, first, _second(a, t, beyond)
+
+    def _pieces(self, s: Array) -> tuple[Array, Array, Array]:
+        """Coefficients, where on its piece each arc parameter is, and how far it is past an end."""
+        inside = np.minimum(np.maximum(s, 0.0), self.length)
         piece = np.minimum((inside / self.spacing).astype(np.int64), len(self.coefficients) - 1)
         t = (inside - piece * self.spacing)[:, None]
-        a = self.coefficients[piece]
-        first: Array = (3.0 * a[:, 3] * t + 2.0 * a[:, 2]) * t + a[:, 1]
-        if derivative == 1:
-            return first
-        beyond = (s - inside)[:, None]
-        if derivative == 2:
-            second: Array = 6.0 * a[:, 3] * t + 2.0 * a[:, 2]
-            second[beyond[:, 0] != 0.0] = 0.0
-            return second
-        point: Array = ((a[:, 3] * t + a[:, 2]) * t + a[:, 1]) * t + a[:, 0]
-        return point + beyond * first
+        return self.coefficients[piece], t, (s - inside)[:, None]
 
     def place(self, s: float) -> tuple[Array, Array]:
         """Point with radius and their derivative at one arc parameter, shapes (4,).
@@ -92,6 +96,22 @@ class Curve:
         first, second = self.at(s, 1)[:, :3], self.at(s, 2)[:, :3]
         speed = np.linalg.norm(first, axis=1)
         return np.linalg.norm(np.cross(first, second), axis=1) / speed**3, s
+
+
+def _point(a: Array, t: Array) -> Array:
+    point: Array = ((a[:, 3] * t + a[:, 2]) * t + a[:, 1]) * t + a[:, 0]
+    return point
+
+
+def _first(a: Array, t: Array) -> Array:
+    first: Array = (3.0 * a[:, 3] * t + 2.0 * a[:, 2]) * t + a[:, 1]
+    return first
+
+
+def _second(a: Array, t: Array, beyond: Array) -> Array:
+    second: Array = 6.0 * a[:, 3] * t + 2.0 * a[:, 2]
+    second[beyond[:, 0] != 0.0] = 0.0
+    return second
 
 
 def fit(points: Array, radius: Array, tangents: tuple[Array | None, Array | None]) -> Curve:

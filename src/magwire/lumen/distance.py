@@ -15,7 +15,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 from magwire.errors import InputError
 from magwire.kernels.wall.seeds import spread
@@ -96,6 +95,8 @@ def _build(sheet: Sheet, branches: Sequence[Branch]) -> Wall:
     radius = np.concatenate([branch.radius for branch in branches])
     depth = nearest(mouths.tree, points).depth
     _check_inside(points, radius, depth)
+    from scipy.spatial import KDTree  # slow to import, and not every wall has triangles
+
     near, narrow = KDTree(points), float(radius.min())
     spots = _spots(sheet, SPACING * narrow)
     wide = radius[near.query(spots)[1]]

@@ -6,7 +6,7 @@ points being the same, and the centreline of a path is made when it is asked for
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import partial
 
 import numpy as np
@@ -15,27 +15,33 @@ from numpy.typing import NDArray
 from magwire.errors import InputError
 from magwire.lumen.branch import Branch
 from magwire.lumen.lazy import Lazy
+from magwire.lumen.ridges import without_ridges
 from magwire.lumen.spline import spline
 from magwire.lumen.tree import (
     BLEND,
     MOUTH,
     SHARED,
     Line,
+    Trace,
     Tree,
     Walls,
     check_courses,
+    deepest,
     grown,
+    missing,
     refusal,
+    run_in,
 )
 
 Array = NDArray[np.float64]
 
 LEAD = 6  # points before a path leaves, so that its curve does not begin there
 RUN_IN = 16  # points of a path behind where it leaves, about four radii
+BURIED = 0.5  # part of the radius by which an end of a trunk sticks out of others that are not wall
 AT_ONCE = 8  # points that are looked at together
 
 
-def join_ways(ways: Mapping[str, Array], width: float | None) -> Tree:
+def join_ways(ways: Mapping[str, Array], trunks: Sequence[Array], width: float | None) -> Tree:
     """The tree of paths from one entrance.
 
     Parameters
@@ -43,6 +49,8 @@ def join_ways(ways: Mapping[str, Array], width: float | None) -> Tree:
     ways
         Balls of each path from the entrance on, by the name of its outlet, shape (n, 4) [m]: centre
         and radius.
+    trunks
+        Balls of tubes that are wall, but lead nowhere, shape (n, 4) [m].
     width
         Width over which branches blend [m]; if None, by the radius at each junction.
     """
@@ -54,7 +62,9 @@ def join_ways(ways: Mapping[str, Array], width: float | None) -> Tree:
             raise refusal(f"'{name}' runs along another one to its end")
         walls.add(name, _wall(name, balls, shared, walls, width))
         seen.update((balls[i].tobytes(), i) for i in range(shared, len(balls)))
-    check_courses(walls)
+    check_courses(walls, beside=True)
+    for number, balls in enumerate(trunks, start=1):
+        walls.add(f"trunk {number}", _trunk(balls, walls, width))
     return Tree(tuple(walls.branches), Lazy({n: partial(_tube, b) for n, b in ways.items()}))
 
 
@@ -73,7 +83,7 @@ def _shared(balls: Array, seen: Mapping[bytes, int]) -> int:
 def _wall(name: str, balls: Array, shared: int, walls: Walls, width: float | None) -> Branch:
     """The wall of a path from where it leaves those before it; all of it for the first one."""
     if not walls.branches:
-        return _tube(balls)
+        return without_ridges(_tube(balls), float(balls[0, 3]))
     if np.linalg.norm(balls[0, :3] - walls.branches[0].entrance) > 0.0:
         raise InputError(
             f"Input balls of Lumen.ways must all start at one entrance; '{name}' starts at "
@@ -94,7 +104,38 @@ def _wall(name: str, balls: Array, shared: int, walls: Walls, width: float | Non
     near = own[:RUN_IN]  # closer together where the wall takes on its radius
     arcs = np.sort(np.concatenate([own, 0.5 * (near[1:] + near[:-1])]))
     tangents = course(own[[0, -1]], 1)[:, :3]
-    return grown(name, Line(arcs - own[0], course(arcs), tangents, True), walls, width)
+    return grown(name, Line(arcs - own[0], course(arcs), tangents, True), walls, width, widens=True)
+
+
+def _trunk(balls: Array, walls: Walls, width: float | None) -> Branch:
+    """The wall of a tube whose ends lie in other walls, where they are not felt, or are open."""
+    steps = np.linalg.norm(np.diff(balls[:, :3], axis=0), axis=1)
+    knots = np.concatenate([[0.0], np.cumsum(steps)])
+    closer = (knots[1:] < knots[-1:] / 2.0) & (np.arange(len(steps)) < RUN_IN)
+    closer |= closer[::-1]
+    arcs = np.sort(np.concatenate([knots, 0.5 * (knots[1:] + knots[:-1])[closer]]))
+    made = spline(knots, balls)(arcs)
+    others = walls.near(made[:, :3], float(made[:, 3].max()))
+    width = BLEND * _narrowest(made, others) if width is None else width
+    radius, is_open = made[:, 3].copy(), [False, False]
+    for end, (at, along) in enumerate(((0, arcs), (-1, arcs[-1] - arcs))):
+        lost = missing(float(made[at, 3]), deepest(made[at], others)[0], width)
+        is_open[end] = lost > BURIED * made[at, 3]
+        if not is_open[end]:
+            radius -= run_in(lost, made[at, 3], along)
+    return Branch(made[:, :3], radius, open_begin=is_open[0], open_end=is_open[1], blend=width)
+
+
+def _narrowest(balls: Array, others: Sequence[Trace]) -> float:
+    """The smallest radius of other tubes where their centrelines are in this one [m]."""
+    from scipy.spatial import KDTree
+
+    tree, least = KDTree(balls[:, :3]), float(balls[:, 3].min())
+    for other in others:
+        distance, nearest = tree.query(other.balls[:, :3])
+        inside = distance < balls[nearest, 3]
+        least = min(least, float(other.balls[inside, 3].min(initial=np.inf)))
+    return least
 
 
 def _leaves(name: str, balls: Array, start: int, walls: Walls) -> int:

@@ -71,7 +71,8 @@ def build(branches: Sequence[Branch]) -> LumenArrays:
     deepest(samples, *place, best, near)
     felt = BLENDED * float(table[:, BLEND].max())
     found = _ridges(samples, place, felt, best, near)
-    seeds = np.column_stack([found[:, 0], samples[found[:, 1]][:, [5, 4]]])
+    seeds = np.empty((len(found), 3))
+    seeds[:, 0], seeds[:, 1:] = found[:, 0], samples[:, [5, 4]][found[:, 1]]
     at_valleys = _valley_seeds(branches, place, felt, best, near)
     seeds = np.concatenate([seeds, at_mouths, at_valleys])
     forked = np.arange(len(seeds)) >= len(seeds) - len(at_valleys)
@@ -191,7 +192,7 @@ def _valley_seeds(
     places = np.concatenate([_places(b, i, 4.0 * place[3]) for i, b in enumerate(branches)])
     if len(places) == 0:
         return NO_SEEDS
-    found = np.empty((1024, 2), dtype=np.int64)
+    found = np.empty((64 * len(places) + 1024, 2), dtype=np.int64)
     while True:
         state = np.full(len(best), -1, dtype=np.int64)
         count = valleys(places, *place, blend, best, near, state, found)
@@ -228,13 +229,17 @@ def _thin(
 
     Those at a valley, ``forked``, all stay: two maxima may be as close as one likes.
     """
-    key = seeds[:, 0] * (1.0 + seeds[:, 1].max(initial=0.0)) + seeds[:, 1]  # a whole number
-    order = np.lexsort((seeds[:, 2], key))
-    seeds, forked = seeds[order], forked[order]
-    close = (np.diff(key[order]) == 0.0) & (np.diff(seeds[:, 2]) < 0.5 * narrowest)
+    voxel, branch = seeds[:, 0].astype(np.int64), seeds[:, 1].astype(np.int64)
+    key = voxel * (1 + branch.max(initial=0)) + branch
+    bits = 61 - int(key.max(initial=0)).bit_length()  # left for the arc: one sort, not of three
+    longest = float(seeds[:, 2].max(initial=0.0)) or 1.0
+    arc = (seeds[:, 2] * ((2.0**bits - 1.0) / longest)).astype(np.int64)
+    order = np.argsort((((key << bits) + arc) << 1) + forked)
+    forked, key = forked[order], key[order]
+    close = (key[1:] == key[:-1]) & (np.diff(seeds[order, 2]) < 0.5 * narrowest)
     dropped = np.concatenate([[False], close]) | np.concatenate([close & forked[1:], [False]])
     kept = forked | ~dropped
-    return seeds[kept], forked[kept]
+    return seeds[order[kept]], forked[kept]
 
 
 def _pack(
@@ -249,17 +254,18 @@ def _pack(
     settled = np.zeros((len(seeds), 4))
     settled[:, 0] = seeds[:, 2]
     if len(seeds) > 0:
-        place = np.unravel_index(voxel, tuple(voxels.shape))
+        alone = np.flatnonzero(~forked)  # at a valley the centre's maximum may not be the point's
+        place = np.unravel_index(voxel[alone], tuple(voxels.shape))
         middles = voxels.corner + (np.stack(place, axis=1) + 0.5) * voxels.cell
-        alone = settled[~forked]  # at a valley the centre's maximum may not be the point's
-        settle(coefficients, table, branch[~forked], middles[~forked], voxels.slack, alone)
-        settled[~forked] = alone
+        found = settled[alone]
+        settle(coefficients, table, branch[alone], middles, voxels.slack, found)
+        settled[alone] = found
         same = ~forked[1:] & (voxel[1:] == voxel[:-1]) & (branch[1:] == branch[:-1])
         same &= np.abs(np.diff(settled[:, 0])) < SAME * voxels.cell
         kept = np.concatenate([[True], ~same])
         voxel, branch, settled = voxel[kept], branch[kept], settled[kept]
-    voxel, start = np.unique(voxel, return_index=True)
-    last = np.append(start, len(settled))[1:] - 1
+    start = np.flatnonzero(np.diff(voxel, prepend=-1))
+    voxel, last = voxel[start], np.append(start, len(settled))[1:] - 1
     branch[last] = -1 - branch[last]
     x0, y0, z0 = (float(corner) for corner in voxels.corner)
     nx, ny, nz = (int(count) for count in voxels.shape)

@@ -317,6 +317,7 @@ class Lumen:
         cls,
         balls: Mapping[str, ArrayLike],
         *,
+        trunks: Sequence[ArrayLike] = (),
         target: str | None = None,
         blend: float | None = None,
     ) -> Lumen:
@@ -329,6 +330,10 @@ class Lumen:
         ----------
         balls
             Points and radii of each path by the name of its outlet, shape (n, 4) [m].
+        trunks
+            Those of tubes that are wall and no path, shape (n, 4) [m] each: trunks that no path
+            runs straight through. An end that lies inside of the paths' walls is closed, and not
+            felt; any other is open.
         target, blend
             As of ``Lumen.tree``.
 
@@ -346,7 +351,9 @@ class Lumen:
             raise InputError(
                 "Input balls of Lumen.ways must have one entry at least; received none."
             )
-        walls, paths = join_ways(given, blend)
+        instance(owner, "trunks", trunks, Sequence)
+        more = [array(owner, "trunks", rows, (None, 4), "m") for rows in trunks]
+        walls, paths = join_ways(given, more, blend)
         return cls(walls, paths=paths, target=target)
 
     @classmethod

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from math import ceil, degrees, tan
@@ -15,6 +15,7 @@ from magwire.errors import InputError
 from magwire.lumen.branch import Branch
 from magwire.lumen.curve import Curve
 from magwire.lumen.lazy import Lazy
+from magwire.lumen.ridges import without_ridges
 
 if TYPE_CHECKING:
     from scipy.spatial import KDTree
@@ -27,6 +28,10 @@ SHARED = 0.01  # distance at which two centrelines stop being one, over the radi
 WIDER = 1.05  # largest radius of a branch where it leaves, over its parent's
 RUN_IN = 1.0  # length over which a branch takes on its radius, at least, over the radius
 STEEPNESS = 5.0  # that length over what the radius gains, at least
+STEEP, GENTLE = (
+    0.9,
+    0.8,
+)  # rise of a radius over the arc that is too much, and that it is lowered to
 ROUNDING = 1.6  # bend radius of a path around the corner of a junction, over the parent's radius
 MOUTH = 1.5  # how far from the entrance a branch leaves that has a wall of its own from there on
 OFF_AXIS = 0.5  # farthest from its parent's centreline that a branch starts, over the radius
@@ -45,7 +50,7 @@ class Tree(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class _Trace:
+class Trace:
     """A named centreline that points are projected on."""
 
     name: str
@@ -87,11 +92,11 @@ class _Trace:
         """Distance, arc parameter and radius at the nearest point, shapes (n,) [m]."""
         s = self.arcs[self._samples.query(points)[1]]
         for _ in range(4):  # Newton's method on (c - x).c' = 0
-            away = self.curve.at(s)[:, :3] - points
-            first, second = self.curve.at(s, 1)[:, :3], self.curve.at(s, 2)[:, :3]
+            ball, first, second = (each[:, :3] for each in self.curve.jet(s))
+            away = ball - points
             slope = np.sum(first * first, axis=1) + np.sum(away * second, axis=1)
             step = np.sum(away * first, axis=1) / np.maximum(slope, 0.1)
-            s = np.clip(s - step, 0.0, self.curve.length)
+            s = np.minimum(np.maximum(s - step, 0.0), self.curve.length)
         ball = self.curve.at(s)
         return np.linalg.norm(ball[:, :3] - points, axis=1), s, ball[:, 3]
 
@@ -115,7 +120,7 @@ def join(lines: Mapping[str, Branch], width: float | None) -> Tree:
         Width over which branches blend [m]; if None, by the radius at each junction.
     """
     names = list(lines)
-    tubes = _Tubes({name: _Trace(name, line.curve) for name, line in lines.items()}, lines, {})
+    tubes = _Tubes({name: Trace(name, line.curve) for name, line in lines.items()}, lines, {})
     walls = Walls()
     walls.add(names[0], lines[names[0]])
     tubes.paths[names[0]] = lines[names[0]]
@@ -130,7 +135,7 @@ class Walls:
 
     def __init__(self) -> None:
         self.branches: list[Branch] = []
-        self.traces: list[_Trace] = []
+        self.traces: list[Trace] = []
         self._boxes = np.zeros((16, 2, 3))
 
     def add(self, name: str, wall: Branch) -> None:
@@ -142,9 +147,9 @@ class Walls:
         self._boxes[count, 0] = wall.points.min(axis=0) - reach
         self._boxes[count, 1] = wall.points.max(axis=0) + reach
         self.branches.append(wall)
-        self.traces.append(_Trace(name, wall.curve))
+        self.traces.append(Trace(name, wall.curve))
 
-    def near(self, points: Array, reach: float) -> list[_Trace]:
+    def near(self, points: Array, reach: float) -> list[Trace]:
         """Those that may be within ``reach`` [m] of points, shape (n, 3)."""
         low, high = points.min(axis=0) - reach, points.max(axis=0) + reach
         boxes = self._boxes[: len(self.branches)]
@@ -168,7 +173,7 @@ class _Tubes:
         What each of the others leaves.
     """
 
-    axes: Mapping[str, _Trace]
+    axes: Mapping[str, Trace]
     lines: Mapping[str, Branch]
     paths: dict[str, Branch]
     leaving: dict[str, str] = field(default_factory=dict)
@@ -180,7 +185,7 @@ class _Tubes:
             wanted.append(self.leaving[wanted[-1]])
         for made in wanted[-2::-1]:
             parent = self.leaving[made]
-            way = _Trace(parent, self.paths[parent].curve)
+            way = Trace(parent, self.paths[parent].curve)
             self.paths[made] = _path(made, self.lines[made], way, None)
         return self.paths[name]
 
@@ -202,7 +207,7 @@ def _attach(name: str, tubes: _Tubes, walls: Walls, width: float | None) -> Bran
         tubes.leaving[name] = way.name
         around = AROUND * float(line.radius[0] + way.curve.at(np.array([arc]))[0, 3])
         if way.name not in tubes.paths and arc < around:  # the corner may be that of its parent
-            way = _Trace(way.name, tubes.path(way.name).curve)
+            way = Trace(way.name, tubes.path(way.name).curve)
         _path(name, line, way, around)
     tangents = line.curve.at(arcs[[0, -1]], 1)[:, :3]
     own = Line(arcs - arcs[0], line.curve.at(arcs), tangents, line.open_end)
@@ -228,7 +233,9 @@ class Line(NamedTuple):
     open_end: bool
 
 
-def grown(name: str, line: Line, walls: Walls, width: float | None) -> Branch:
+def grown(
+    name: str, line: Line, walls: Walls, width: float | None, *, widens: bool = False
+) -> Branch:
     """The wall of a tube that leaves other walls.
 
     Parameters
@@ -239,14 +246,20 @@ def grown(name: str, line: Line, walls: Walls, width: float | None) -> Branch:
         Those before it.
     width
         Width over which it blends into them [m]; if None, by its radius where it leaves.
+    widens
+        Whether it may be wider than what it leaves, which may be narrow in a sharp bend only.
     """
     arcs, balls = line.arcs, line.balls
     others = walls.near(balls[:1, :3], 0.0) or walls.traces
     if width is None:
         width = BLEND * float(balls[arcs <= JUNCTION * balls[0, 3], 3].min())
+    if not widens:
+        _check_width(name, float(balls[0, 3]), deepest(balls[0], others)[1])
     radius = _run_in(name, arcs, balls, others, width)
+    if widens and np.any(np.diff(radius) > STEEP * np.diff(arcs)):
+        radius = np.minimum.accumulate(radius - GENTLE * arcs) + GENTLE * arcs
     begin, end = line.tangents
-    return Branch(
+    branch = Branch(
         balls[:, :3],
         radius,
         begin_tangent=begin,
@@ -255,9 +268,11 @@ def grown(name: str, line: Line, walls: Walls, width: float | None) -> Branch:
         open_end=line.open_end,
         blend=width,
     )
+    hidden = arcs[radius < balls[:, 3]]
+    return without_ridges(branch, float(hidden[-1]) if len(hidden) > 0 else 0.0)
 
 
-def _leaves(name: str, line: Branch, axes: Mapping[str, _Trace], walls: Walls) -> float:
+def _leaves(name: str, line: Branch, axes: Mapping[str, Trace], walls: Walls) -> float:
     """Arc parameter where a tube leaves the ones before it, on which it starts [m].
 
     It is followed along one of them until it leaves that one, and from there along the next.
@@ -283,7 +298,7 @@ def _leaves(name: str, line: Branch, axes: Mapping[str, _Trace], walls: Walls) -
     raise refusal(f"'{name}' runs along '{along}' to its end")
 
 
-def _path(name: str, line: Branch, way: _Trace, around: float | None) -> Branch:
+def _path(name: str, line: Branch, way: Trace, around: float | None) -> Branch:
     """Centreline from the entrance into a tube that starts in one before it.
 
     Around the corner of the junction it leaves both lines, to turn as gently as the parent is
@@ -322,8 +337,8 @@ def _path(name: str, line: Branch, way: _Trace, around: float | None) -> Branch:
 
 
 def _parent(
-    name: str, start: Array, axes: Mapping[str, _Trace], walls: Walls
-) -> tuple[_Trace, float]:
+    name: str, start: Array, axes: Mapping[str, Trace], walls: Walls
+) -> tuple[Trace, float]:
     """The tube on whose centreline another one starts, and the arc parameter there [m].
 
     Of several whose centrelines are one there it is the first.
@@ -372,26 +387,38 @@ def _turn(
     return np.concatenate([balls, after])
 
 
-def _run_in(name: str, arcs: Array, balls: Array, others: list[_Trace], width: float) -> Array:
+def _run_in(name: str, arcs: Array, balls: Array, others: list[Trace], width: float) -> Array:
     """Radius of a branch: at its start so small that the blend does not see it.
 
     The first ball lies ``width`` inside of a branch before it, and its cap with it. From there the
     radius grows to its own.
     """
-    found = [other.nearest(balls[:1, :3]) for other in others]
-    gaps = [float(radius[0] - distance[0]) for distance, _, radius in found]
-    deepest = int(np.argmax(gaps))
-    wide, parent = float(balls[0, 3]), float(found[deepest][2][0])
-    _check_width(name, wide, parent)
-    lost = max(wide - (gaps[deepest] - 1.001 * width), 0.0)
+    wide = float(balls[0, 3])
+    lost = missing(wide, deepest(balls[0], others)[0], width)
     if lost > 0.75 * wide:
         raise InputError(
             "Input blend of Lumen.tree must be smaller than the branches are wide; received "
             f"{width:.6g} m where '{name}' has a radius of {wide:.6g} m."
         )
-    return np.asarray(
-        balls[:, 3] - lost * (1.0 - _ramp(arcs / max(RUN_IN * wide, STEEPNESS * lost)))
-    )
+    return np.asarray(balls[:, 3] - run_in(lost, wide, arcs))
+
+
+def missing(wide: float, gap: float, width: float) -> float:
+    """What a ball that is so deep in other tubes has to lose for a blend not to see it [m]."""
+    return max(wide - (gap - 1.001 * width), 0.0)
+
+
+def run_in(lost: float, wide: float, arcs: Array) -> Array:
+    """What the radius has lost at arc parameters from an end of a tube, shape (n,) [m]."""
+    return np.asarray(lost * (1.0 - _ramp(arcs / max(RUN_IN * wide, STEEPNESS * lost))))
+
+
+def deepest(ball: Array, others: Sequence[Trace]) -> tuple[float, float]:
+    """How deep the centre of a ball, shape (4,), is in other tubes, and the radius there [m]."""
+    found = [other.nearest(ball[None, :3]) for other in others]
+    gaps = [float(radius[0] - distance[0]) for distance, _, radius in found]
+    deepest = int(np.argmax(gaps))
+    return gaps[deepest], float(found[deepest][2][0])
 
 
 def _check_width(name: str, wide: float, parent: float) -> None:
@@ -406,8 +433,16 @@ def _ramp(t: Array) -> Array:
     return np.asarray(t**3 * (10.0 + t * (6.0 * t - 15.0)))
 
 
-def check_courses(walls: Walls) -> None:
-    """Refuse branches that come back to others, and outlets inside of others."""
+def check_courses(walls: Walls, *, beside: bool = False) -> None:
+    """Refuse branches that come back to others, and outlets inside of others.
+
+    Parameters
+    ----------
+    walls
+        The walls.
+    beside
+        Whether outlets that are about as far along may overlap, as those of a fork cut short do.
+    """
     order = {id(trace): i for i, trace in enumerate(walls.traces)}
     for i, trace in enumerate(walls.traces):
         balls = trace.balls[::SPARSE]
@@ -429,8 +464,11 @@ def check_courses(walls: Walls) -> None:
                 )
         end = trace.balls[-1:, :3]
         for other in walls.near(end, 0.0):
-            distance, _, radius = other.nearest(end)
-            if other is not trace and distance[0] < BESIDE * radius[0]:
+            if other is trace:
+                continue
+            distance, arc, radius = other.nearest(end)
+            close = other.curve.length - arc[0] < MOUTH * radius[0]
+            if distance[0] < BESIDE * radius[0] and not (beside and close):
                 raise refusal(
                     f"the outlet '{trace.name}' lies inside of '{other.name}', {distance[0]:.6g} m "
                     f"from its centreline, with radius {radius[0]:.6g} m there"

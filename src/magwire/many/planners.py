@@ -1,4 +1,4 @@
-"""Plans for several outlets at a time, in processes of their own.
+"""Plans for several outlets at a time, and what is tried of them, in processes of their own.
 
 What travels are the models themselves, pickled, to the bit.
 """
@@ -14,7 +14,7 @@ from magwire.errors import MagwireError
 from magwire.lumen import Lumen
 from magwire.many.children import Child, side_by_side
 from magwire.navigate.demands import Demands
-from magwire.planning import Prospect
+from magwire.planning import Prospect, Trial
 from magwire.wire import Wire
 
 
@@ -27,8 +27,15 @@ class Task(NamedTuple):
     contact: Barrier | None
 
 
+class Check(NamedTuple):
+    """What is to be tried of a way that is reached; see ``magwire.perturbations.tried``."""
+
+    change: str
+    prospect: Prospect
+
+
 class Planner(Child):
-    """A process that plans a task for one outlet after the other."""
+    """A process that plans a task for one outlet after the other, or tries what was planned."""
 
     def __init__(self, task: Task) -> None:
         super().__init__("magwire.many.planner")
@@ -42,15 +49,27 @@ class Planner(Child):
         MagwireError
             What planning raises, in its words; or that the process has died, and its last words.
         """
+        answer = self._answer(name, name)
+        assert isinstance(answer, Prospect)
+        return answer
+
+    def check(self, order: Check) -> tuple[str, Trial]:
+        """The outlet, and how the way there went with a change; raises as ``plan`` does."""
+        outlet = order.prospect.outlet
+        answer = self._answer(order, outlet)
+        assert isinstance(answer, Trial)
+        return outlet, answer
+
+    def _answer(self, order: str | Check, outlet: str) -> Prospect | Trial:
         try:
             if self._task is not None:
                 pickle.dump(self._task, self.orders)
                 self._task = None
-            pickle.dump(name, self.orders)
+            pickle.dump(order, self.orders)
             self.orders.flush()
-            answer: Prospect | str = pickle.load(self.answers)
+            answer: Prospect | Trial | str = pickle.load(self.answers)
         except (OSError, EOFError, pickle.UnpicklingError) as error:
-            ended = f"The process that planned for '{name}' ended with {self.last_words()}."
+            ended = f"The process that planned for '{outlet}' ended with {self.last_words()}."
             raise MagwireError(ended) from error
         if isinstance(answer, str):
             raise MagwireError(answer)
@@ -78,3 +97,14 @@ def plan_at_once(task: Task, names: Sequence[str], workers: int) -> Generator[Pr
     """
     pool = [Planner(task) for _ in range(min(workers, len(names)))]
     yield from side_by_side(pool, names, lambda planner, name, _: planner.plan(name))
+
+
+def check_at_once(
+    task: Task, orders: Sequence[Check], workers: int
+) -> Generator[tuple[str, Trial], None, None]:
+    """Try what was planned, in processes, with the outlet of each, yielded as they are done.
+
+    Parameters and errors are those of ``plan_at_once``.
+    """
+    pool = [Planner(task) for _ in range(min(workers, len(orders)))]
+    yield from side_by_side(pool, orders, lambda planner, order, _: planner.check(order))

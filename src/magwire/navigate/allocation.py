@@ -24,6 +24,7 @@ from magwire.engine.sensitivity import derivative
 from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.errors import InputError, one_of
+from magwire.navigate.arm import Arm
 from magwire.navigate.direct import Direct
 from magwire.navigate.inputs import InputSchedule
 from magwire.navigate.least_cost import FREE, LEAST, REACH, allocate, binding, cheapest, prices_of
@@ -43,9 +44,9 @@ ON_PLAN = 0.01  # tip off the plan, over the radius, and field along it, over th
 ASIDE = 0.2  # the same, beyond which a knot counts as not reached
 ASTRAY = (
     "no inputs within the limits bring the tip to where it is planned, in the actuator's own "
-    "field: its gradient pulls, or the wire is about to buckle; ask for a larger stability_margin "
-    "or tip_clearance, or use larger coils."
+    "field: its gradient pulls, or the wire is about to buckle"
 )
+ADVICE = "ask for a larger stability_margin or tip_clearance, or use larger coils."
 
 
 @dataclass(frozen=True)
@@ -124,7 +125,10 @@ class AllocatingNavigator:
         planner = getattr(navigator, "navigator", navigator)  # of one that tries again
         demands = getattr(planner, "demands", None)
         self._direct = None if demands is None else Direct(self._plant, demands, self._prices)
-        self._every = float(getattr(planner, "plan_every", np.inf))
+        every = float(getattr(planner, "plan_every", np.inf))
+        self._arm: Arm | None = None
+        if self._direct is not None and isinstance(self._actuator, Magnet):
+            self._arm = Arm(self._direct, self._actuator, every)
         expect = getattr(planner, "expect", None)
         if expect is not None and bool(self._currents.all()):
             curve = system.path.branches[0].curve
@@ -139,8 +143,8 @@ class AllocatingNavigator:
         NavigationError
             If no field does what is asked for, or no inputs within the limits make it.
         """
-        if self._direct is not None and isinstance(self._actuator, Magnet):
-            return self._moved(self._direct, observation, until)
+        if self._arm is not None:
+            return self._moved(self._arm, observation, until)
         course = self.navigator.plan(observation, until)
         assert isinstance(course, Schedule)
         low, high = sorted((observation.feed, until))
@@ -173,7 +177,8 @@ class AllocatingNavigator:
             there = self._follow(feed, found)
             done = there and (not np.any(flux) or self._correct(tip, flux))
             if not done and not self._swung(feed, found, tip, flux):
-                return self._aside(feed, before, f"{at} {self._lacking() or ASTRAY}")
+                why = self._lacking() or self._astray(found, flux, place)
+                return self._aside(feed, before, f"{at} {why}")
             found = self._plant.inputs
             if self._saves and self._direct is not None and np.any(flux):
                 found = self._saved(self._direct, found)
@@ -211,6 +216,19 @@ class AllocatingNavigator:
             f"to where it is planned takes {needed:.3g} {one.unit}."
         )
 
+    def _astray(self, inputs: Array, flux: Array, place: Array) -> str:
+        """Why no inputs do though none is at its limit, as the end of a sentence."""
+        used = np.abs(inputs) / np.maximum(np.abs(self._low), np.abs(self._high))
+        most = int(np.argmax(used))
+        one = self._actuator.inputs[most]
+        _, gradient = self._actuator.at(place[None], inputs)
+        pull = float(np.linalg.norm(gradient[0], 2))
+        return (
+            f"{ASTRAY}. No input is at its limit: for the planned {1e3 * np.linalg.norm(flux):.3g} "
+            f"mT {one.name} has {abs(inputs[most]):.3g} of {abs(inputs[most]) / used[most]:.3g} "
+            f"{one.unit}, with a gradient of {pull:.2g} T/m; {ADVICE}"
+        )
+
     def _saved(self, direct: Direct, found: Array) -> Array:
         """Inputs of less power that do what is asked for; those found if there are none."""
         plant, weak = self._plant, direct.weak
@@ -238,26 +256,13 @@ class AllocatingNavigator:
         found: Array = plant.inputs / direct.weak
         return found
 
-    def _moved(self, direct: Direct, observation: Observation, until: float) -> InputSchedule:
-        """The poses of a magnet up to a feed, each the nearest one to that before."""
-        count = max(1, int(np.ceil(abs(until - observation.feed) / self._every - 1e-6)))
-        knots = np.linspace(observation.feed, until, count + 1)
-        slews = np.array([one.slew for one in self._actuator.inputs])
-        rows = [self._last]
-        for before, feed in itertools.pairwise(knots):
-            time = abs(feed - before) / abs(observation.speed) if observation.speed else np.inf
-            reach = np.minimum(slews * time, FREE)
-            if not direct.feed_to(float(feed)) or not direct.improve(rows[-1], reach):
-                raise NavigationError(direct.why(float(feed)))
-            rows.append(self._unit_direction(self._plant.inputs))
-            self._plant.inputs = rows[-1]
-        self._last, self._feed = rows[-1], float(until)
-        order = np.argsort(knots)
-        return InputSchedule(knots[order], np.array(rows)[order], self._system.input_names)
-
-    def _unit_direction(self, pose: Array) -> Array:
-        """A magnet's pose with a direction of length one."""
-        return np.concatenate((pose[:3], pose[3:] / np.linalg.norm(pose[3:])))
+    def _moved(self, arm: Arm, observation: Observation, until: float) -> InputSchedule:
+        """The poses of a magnet up to a feed."""
+        goal = until if observation.goal is None else observation.goal
+        places = arm.plan(observation.feed, until, goal, observation.speed)
+        feeds = np.array([place.feed for place in places])
+        poses = np.array([place.pose for place in places])
+        return InputSchedule(feeds, poses, self._system.input_names)
 
     def _follow(self, feed: float, inputs: Array) -> bool:
         """Bring the model to a feed and inputs by equilibria; whether they were found."""
@@ -368,6 +373,8 @@ class AllocatingNavigator:
 
     def expected_tip(self, feed: float) -> Array | None:
         """Where the tip should be at a feed [m], shape (3,) [m]; None if that is not known."""
+        if self._arm is not None:
+            return self._arm.expected_tip(feed)
         if abs(feed - self._feed) < CLOSE and self._direct is not None:
             here: Array = self._plant.observe().tip
             return here

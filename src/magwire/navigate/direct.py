@@ -115,7 +115,7 @@ class Direct:
         still = np.tile(plant.inputs, (steps, 1))
         return plant.advance(Drive(course, np.zeros(steps), still, 1.0, inertia=False)) == steps
 
-    def improve(self, before: Array, reach: Array) -> bool:
+    def improve(self, before: Array, reach: Array, towards: Array | None = None) -> bool:
         """Go to the inputs of least cost at this feed; whether they do what is asked for.
 
         Parameters
@@ -124,8 +124,11 @@ class Direct:
             Inputs at the feed before, shape (m,): a magnet's way starts there.
         reach
             Largest change from there, shape (m,).
+        towards
+            Where the way of a magnet is to lead, shape (m,); it is kept short if left out.
         """
         plant = self.plant
+        home = before if towards is None else towards
         if not plant.released:
             return True
         here = self.look()
@@ -136,14 +139,14 @@ class Direct:
         self._trust = max(self._trust, 0.1 * TRUST)
         for _ in range(ROUNDS):
             units = self._units()
-            change = self._change(here, before, reach, units)
+            change = self._change(here, home, (before - reach, before + reach), units)
             if change is None:
                 break
-            start, merit = plant.snapshot(), self._merit(here, before)
+            start, merit = plant.snapshot(), self._merit(here, home)
             plant.inputs = np.clip(plant.inputs + change, self._low, self._high)
             there = self.look() if plant.settle(self._limits)[0] is Status.CONVERGED else None
             size = float(np.abs(change / units).max())
-            if there is None or self._merit(there, before) > merit + 1e-9:
+            if there is None or self._merit(there, home) > merit + 1e-9:
                 plant.restore(start)
                 self._trust = 0.3 * min(size, self._trust)
                 if self._trust < LEAST_TRUST:
@@ -158,7 +161,7 @@ class Direct:
     def meets(self, sight: Sight) -> bool:
         """Whether an equilibrium does what is asked for, or misses it by little."""
         over, under = self._misses(sight)
-        within = over <= MISSED and under <= MISSED and self._spare() >= 0.0
+        within = over <= MISSED and under <= MISSED and self.spare(self.plant.inputs) >= 0.0
         return within and self._withstands(sight)
 
     def _withstands(self, sight: Sight) -> bool:
@@ -176,7 +179,7 @@ class Direct:
         else:
             moves = NORMALS[::2] @ sight.offset_by_input * start.inputs
             signs = np.where(moves < 0.0, -1.0, 1.0)
-        touches = sight.radius - self._system.keep_off - self._system.firmness.activation_gap
+        touches = self._touches(sight.radius)
         for gains in 1.0 + part * signs:
             plant.inputs = gains * start.inputs / self.weak
             stays = plant.settle(self._limits)[0] is Status.CONVERGED and self._eigenvalue() > 0.0
@@ -230,9 +233,13 @@ class Direct:
             for edge in (one.low, one.high)
             if one.unit and abs(value - edge) <= AT * max(1.0, abs(edge)) < np.inf
         ]
-        if isinstance(self._actuator, Magnet) and self._spare() < 2.0 * SPARE:
-            near = 1e3 * (self._actuator.keep_out + self._spare())
-            said.append(f"the magnet is {near:.3g} mm from the vessel, as near as it may")
+        if isinstance(self._actuator, Magnet) and self.spare(self.plant.inputs) < 2.0 * SPARE:
+            near = 1e3 * (self._actuator.keep_out + self.spare(self.plant.inputs))
+            spare = 1e3 * SPARE
+            said.append(
+                f"the magnet is {near:.3g} mm from the vessel, as near as it may with {spare:g} mm "
+                "to spare"
+            )
         return ", ".join(said)
 
     def _units(self) -> Array:
@@ -255,6 +262,10 @@ class Direct:
     def _eigenvalue(self) -> float:
         plant = self.plant
         return float(steadiness(plant.model, plant.state, plant.mouth, plant.work, self._mode))
+
+    def _touches(self, radius: float) -> float:
+        """Offset of the tip from which on the wall presses on it [m]."""
+        return radius - self._system.keep_off - self._system.firmness.activation_gap
 
     def _room(self, radius: float) -> float:
         return (radius - self._system.keep_off) * (1.0 - self.demands.tip_clearance)
@@ -291,26 +302,37 @@ class Direct:
         found: Array = part * worst * rows
         return found
 
-    def _merit(self, sight: Sight, before: Array) -> float:
+    def _merit(self, sight: Sight, home: Array) -> float:
         over, under = self._misses(sight)
-        close = max(0.0, SPARE - self._spare()) / STRETCH
+        close = max(0.0, SPARE - self.spare(self.plant.inputs)) / STRETCH
         missed = PENALTY * (over + under) + FORBIDDEN * close
-        return self.cost(self.plant.inputs, before) + missed
+        return self.cost(self.plant.inputs, home) + missed
 
-    def _spare(self) -> float:
+    def spare(self, u: Array) -> float:
         """How much farther than it must a magnet is from the vessel [m]."""
         if not isinstance(self._actuator, Magnet):
             return np.inf
-        near = float(self._distances(self._actuator, self.plant.inputs).min())
+        near = float(self._distances(self._actuator, u).min())
         return near - self._actuator.keep_out
 
-    def cost(self, u: Array, before: Array) -> float:
+    def is_off_wall(self) -> bool:
+        """Whether the tip is where the wall does not press on it."""
+        offset, radius, _ = self._tip()
+        return float(np.linalg.norm(offset)) < self._touches(radius)
+
+    def apart(self, u: Array, other: Array) -> float:
+        """Largest difference of two poses, in what counts as one."""
+        return float(np.abs((u - other) / self._stretch).max())
+
+    def cost(self, u: Array, home: Array) -> float:
         """Half of the power over that of the inputs before; of a magnet the square of its way."""
-        way = np.where(self._currents, 0.0, (u - before) / self._stretch)
+        way = np.where(self._currents, 0.0, (u - home) / self._stretch)
         spent = float(self._prices @ np.where(self._currents, u, 0.0) ** 2)
         return 0.5 * spent / self._scale + 0.5 * float(way @ way)
 
-    def _change(self, sight: Sight, before: Array, reach: Array, units: Array) -> Array | None:
+    def _change(
+        self, sight: Sight, home: Array, bounds: tuple[Array, Array], units: Array
+    ) -> Array | None:
         """The change of the inputs that the next programme wants; None if it finds none.
 
         Its unknowns are the changes in their units, and what offset and eigenvalue miss.
@@ -318,11 +340,11 @@ class Direct:
         u, count = self.plant.inputs, len(units)
         weight = np.where(self._currents, self._prices * units**2 / self._scale, 1.0)
         slope = np.where(
-            self._currents, self._prices * units * u / self._scale, (u - before) / self._stretch
+            self._currents, self._prices * units * u / self._scale, (u - home) / self._stretch
         )
         rows, upper = self._conditions(sight, units)
-        low = np.maximum(np.maximum(self._low * self.weak - u, before - reach - u) / units, -FREE)
-        high = np.minimum(np.minimum(self._high * self.weak - u, before + reach - u) / units, FREE)
+        low = np.maximum(np.maximum(self._low * self.weak - u, bounds[0] - u) / units, -FREE)
+        high = np.minimum(np.minimum(self._high * self.weak - u, bounds[1] - u) / units, FREE)
         low, high = np.maximum(low, -self._trust), np.minimum(high, self._trust)
         low, high = np.minimum(low, 0.0), np.maximum(high, 0.0)
         more = rows.shape[1] - count

@@ -225,12 +225,21 @@ class StableNavigator:
         if self._back or self._swings.is_held(knots[-1].view):
             return False
         self._searched = norm(knots[-1].flux)
-        course = self._swings.find(knots, self._held(knots), self._searched)
+        course = self._swings.find(knots, self._held(knots), self._searched, self._stays)
         if course is None:
             return False
         self._knots = course
         self._pilot.forget()
         return True
+
+    def _stays(self, knot: Knot) -> bool:
+        """Whether the wall still holds the wire in the next planned field."""
+        self._pilot.forget()
+        try:
+            *_, after = self._pilot.advance(knot, knot.feed + self.plan_every)
+        except NavigationError:
+            return False
+        return self._swings.is_held(after.view)
 
     def _held(self, knots: list[Knot]) -> list[Knot]:
         """The course of the wire when the wall holds it, by rising feed; empty if it does not.
@@ -239,6 +248,7 @@ class StableNavigator:
         then back from there.
         """
         scout, last = self._scout, knots[-1]
+        back = tuned.COURSE.stride * self.plan_every
         farthest = self.model.system.wire.length - self.plan_every
         scout.forget()
         found: list[Knot] = []
@@ -250,7 +260,7 @@ class StableNavigator:
             scout.forget()
             while self._swings.is_held(last.view) and last.feed > knots[0].feed:
                 found.insert(0, last)
-                found[0], *_, last = scout.advance(last, last.feed - self.plan_every)
+                found[0], *_, last = scout.advance(last, last.feed - back)
         except NavigationError:
             pass
         return found

@@ -11,7 +11,7 @@ inertia can tell.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import product
 from typing import NamedTuple
@@ -55,10 +55,14 @@ class Way(NamedTuple):
     nudge: float = 0.0
 
     @property
+    def rest(self) -> Knot:
+        """Its end: where the wire arrives, the field stays for a while."""
+        return replace(self.landing, feed=self.landing.feed + tuned.SWING.length * self.reach)
+
+    @property
     def course(self) -> list[Knot]:
-        """All of it; where the wire arrives, the field stays for a while."""
-        start, landing = self.start, self.landing
-        rest = replace(landing, feed=landing.feed + tuned.SWING.length * self.reach)
+        """All of it."""
+        start, landing, rest = self.start, self.landing, self.rest
         if self.nudge == 0.0:
             return [*self.leads, start, landing, rest]
         assert start.view is not None
@@ -98,7 +102,13 @@ class Swings:
         self._length = model.reach
         self.speed = 0.01 * model.system.wire.length
 
-    def find(self, free: Sequence[Knot], held: Sequence[Knot], highest: float) -> list[Knot] | None:
+    def find(
+        self,
+        free: Sequence[Knot],
+        held: Sequence[Knot],
+        highest: float,
+        stays: Callable[[Knot], bool],
+    ) -> list[Knot] | None:
         """The course with the least field that begins with the wire free and ends with it held.
 
         Parameters
@@ -107,15 +117,25 @@ class Swings:
             Courses of a wire that the wall does not hold, and of one that it does, by rising feed.
         highest
             Flux density [T] that the course must stay below.
+        stays
+            Whether a plan that goes on from a place where the wire is held keeps it held.
         """
         ways = [way for knot in held for way in self._onto(free, knot, highest)]
         ways.sort(key=lambda way: way.largest)
-        found = next((way for way in ways if self._holds(way)), None)
-        return None if found is None else self._refined(found).course
+        known: dict[int, bool] = {}  # by landing
+        for way in ways:
+            landing = id(way.landing)
+            if known.get(landing, True) and self._holds(way):
+                if landing not in known:
+                    known[landing] = stays(way.rest)
+                if known[landing]:
+                    return self._refined(way).course
+        return None
 
     def _refined(self, way: Way) -> Way:
         """The way with its start moved to where less field will do."""
-        for spacing in (0.5 * tuned.SWING.spacing, 0.25 * tuned.SWING.spacing):
+        for part in tuned.SWING.finer:
+            spacing = part * tuned.SWING.spacing
             better: Way | None = way
             while better is not None:
                 way = better
@@ -146,17 +166,12 @@ class Swings:
             ]
             if not leads or leads[-1].view is None:
                 continue
-            places = [
-                p
-                for p in self._places(starts[-1], tuned.SWING.spacing, highest)
-                if not self.is_held(p.view)
-            ]
             if landings is None:
-                landings = [
-                    self._pressed(p)
-                    for p in self._places(landing, tuned.SWING.coarse, highest)
-                    if self.is_held(p.view)
-                ]
+                on = self._places(landing, tuned.SWING.coarse, highest, held=True)
+                landings = [self._pressed(place) for place in on]
+            if not landings:
+                return []
+            places = self._places(starts[-1], tuned.SWING.spacing, highest, held=False)
             for place, pressed in product(places, landings):
                 way = Way(leads, place, pressed, length)
                 nudged = [way._replace(nudge=n) for n in tuned.SWING.nudges]
@@ -217,8 +232,8 @@ class Swings:
         view = model.look() if model.settle(plan.flux_density[-1]) else None
         return view is not None and self.is_held(view)
 
-    def _places(self, knot: Knot, spacing: float, highest: float) -> list[Knot]:
-        """Equilibria with the tip all over its room, in the least stable fields.
+    def _places(self, knot: Knot, spacing: float, highest: float, *, held: bool) -> list[Knot]:
+        """Equilibria with the tip all over its room, in the least stable fields, held or free.
 
         They are reached one from the other, beginning at a knot, in steps across the lumen.
         """
@@ -233,7 +248,7 @@ class Swings:
         while waiting:
             cell, origin = waiting.popleft()
             place = self._send(origin, spacing * size * np.array(cell) @ axes, highest)
-            if place is None:
+            if place is None or self.is_held(place.view) != held:
                 continue
             found.append(place)
             for near in neighbours(cell):
@@ -257,7 +272,7 @@ class Swings:
             there = self._go(view, change)
             if there is None or norm(model.flux) > tuned.SWING.detour * highest:
                 return None
-            settled = norm(there.flux - view.flux) < 2e-3 * programme.unit
+            settled = norm(there.flux - view.flux) < tuned.SWING.settled * programme.unit
             view = there
             off = (
                 programme.uneven(view) / (tuned.SWING.uneven * view.radius) if self._uneven else 0.0

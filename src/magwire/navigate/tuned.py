@@ -96,6 +96,8 @@ class SwingNumbers:
         Between the places where the tip may start, in the lumen's radius.
     coarse
         Between the places where it may arrive, in that radius.
+    finer
+        Steps in which the start of a way that works is moved to less field, over ``spacing``.
     marginal
         Room for these places, over the room for the tip.
     bound
@@ -116,6 +118,8 @@ class SwingNumbers:
         Time step of a trial [s].
     programmes
         Programmes for one place, at most.
+    settled
+        They end when the field changes by less than this, in the unit of fields.
     trust
         Largest change of a component of the field in one programme, in the unit of fields.
     halvings
@@ -144,8 +148,9 @@ class SwingNumbers:
         Feeds for the swing that are tried where coils may be off, over ``length``.
     """
 
-    spacing: float = 0.12
-    coarse: float = 0.24
+    spacing: float = 0.36
+    coarse: float = 0.3
+    finer: tuple[float, ...] = (0.5, 0.25, 0.125)
     marginal: float = 1.15
     bound: float = 0.8
     off: float = 0.6
@@ -155,7 +160,8 @@ class SwingNumbers:
     length: float = 0.02
     lead: float = 0.04
     step: float = 0.02
-    programmes: int = 12
+    programmes: int = 6
+    settled: float = 1e-2
     trust: float = 0.3
     halvings: int = 6
     detour: float = 1.5
@@ -182,6 +188,8 @@ class CourseNumbers:
         Feed that the plan runs ahead, in that length.
     scout
         Feed beyond the plan's end in which the wall must come to hold the wire, in that.
+    stride
+        Planned feeds from one place where the wall holds the wire to the next that is tried.
     growth
         Factor of the field over a span with which another course is looked for.
     span
@@ -191,6 +199,7 @@ class CourseNumbers:
     reference: float = 100.0
     ahead: float = 0.15
     scout: float = 0.15
+    stride: int = 2
     growth: float = 2.0
     span: float = 0.1
 
@@ -239,6 +248,11 @@ class OutletNumbers:
         Attempts in one place.
     slack
         Feed at most, over the length of the path: a wire may lie on the outside of bends.
+    spike
+        Peak field, over the median along the way, from which on a course is also planned with the
+        tip nearer to the centreline.
+    nearer
+        Parts of its room that the tip gives up there, one tried after the other.
     """
 
     pace: float = 0.2
@@ -249,6 +263,8 @@ class OutletNumbers:
     hard: float = 1e-3
     attempts: int = 3
     slack: float = 1.1
+    spike: float = 8.0
+    nearer: tuple[float, ...] = (0.25, 0.5)
 
 
 PILOT = PilotNumbers()

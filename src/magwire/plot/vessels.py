@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -41,6 +41,8 @@ def draw(
     tubes: Mapping[str, tuple[Array, Array]],
     wire: float | None = None,
     surface: Mesh | None = None,
+    *,
+    trunks: Sequence[tuple[Array, Array]] = (),
 ) -> Figure:
     """Draw the tubes of a vessel.
 
@@ -52,6 +54,8 @@ def draw(
         Radius of a wire to compare with [m].
     surface
         The vessel's surface, to be drawn around its tubes.
+    trunks
+        Points and radius of tubes that are wall, but no path.
 
     Returns
     -------
@@ -61,7 +65,7 @@ def draw(
     with mpl.rc_context(style.RC):
         figure = Figure(figsize=(style.WIDTH * style.MM, HEIGHT * style.MM))
         FigureCanvasAgg(figure)
-        draw_into(figure, tubes, wire, surface)
+        draw_into(figure, tubes, wire, surface, trunks=trunks)
     return figure
 
 
@@ -70,6 +74,8 @@ def draw_into(
     tubes: Mapping[str, tuple[Array, Array]],
     wire: float | None = None,
     surface: Mesh | None = None,
+    *,
+    trunks: Sequence[tuple[Array, Array]] = (),
 ) -> None:
     """Draw the tubes of a vessel into an empty figure; what they are is said in ``draw``."""
     with mpl.rc_context(style.RC):
@@ -79,6 +85,8 @@ def draw_into(
         space = halves[0].add_subplot(projection="3d", computed_zorder=False)
         if surface is not None:
             _draw_surface(space, surface)
+        for points, radius in trunks:
+            _draw_tube(space, shapes.Branch(1e3 * points, 1e3 * radius), style.LUMEN_EDGE)
         _draw_tubes(space, parts, tubes)
         axes = halves[1].subplots()
         for i, (name, part) in enumerate(zip(tubes, parts, strict=True)):
@@ -100,9 +108,11 @@ def save(
     path: str | Path,
     wire: float | None = None,
     surface: Mesh | None = None,
+    *,
+    trunks: Sequence[tuple[Array, Array]] = (),
 ) -> None:
     """Draw the tubes of a vessel into a file; the parameters are those of ``draw``."""
-    figure = draw(tubes, wire, surface)
+    figure = draw(tubes, wire, surface, trunks=trunks)
     with mpl.rc_context(style.RC), successor(Path(path)) as draft:
         figure.savefig(draft)
 
@@ -116,16 +126,20 @@ def _draw_surface(axes: Any, surface: Mesh) -> None:
     axes.add_collection3d(sheet)
 
 
+def _draw_tube(axes: Any, tube: shapes.Branch, colour: str) -> None:
+    x, y, z = shapes.tube(tube)
+    axes.plot_surface(
+        x, y, z, color=colour, alpha=0.22, linewidth=0.0, shade=False, rstride=1, cstride=1,
+        antialiased=True, rasterized=True,
+    )  # fmt: skip
+
+
 def _draw_tubes(axes: Any, parts: list[shapes.Branch], names: Mapping[str, Any]) -> None:
     for i, (name, part) in enumerate(zip(names, parts, strict=True)):
         colour = COLOURS[i % len(COLOURS)]
         start = shapes.leaves(part, parts[:i])
         own = shapes.Branch(part.points[start:], part.radius[start:])
-        x, y, z = shapes.tube(own)
-        axes.plot_surface(
-            x, y, z, color=colour, alpha=0.22, linewidth=0.0, shade=False, rstride=1, cstride=1,
-            antialiased=True, rasterized=True,
-        )  # fmt: skip
+        _draw_tube(axes, own, colour)
         axes.plot(*own.points.T, color=colour, linewidth=0.9)
         axes.text(*own.points[-1], f" {style.plain(name)}", color=colour, fontsize=6.5)
     axes.plot(*parts[0].points[:1].T, "o", color=style.INK, markersize=3.5)

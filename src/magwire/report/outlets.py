@@ -16,7 +16,7 @@ import numpy as np
 from magwire.files import write_whole
 from magwire.lumen import Lumen
 from magwire.lumen.branch import Bend
-from magwire.planning import Prospect
+from magwire.planning import Prospect, Trial
 
 TABLES, MAP = ("plan.csv", "plan.json"), "plan.png"
 COLUMNS = {
@@ -37,6 +37,12 @@ COLUMNS = {
     "guide_torque": "mN m",
     "clearance": "mm",
     "reason": "",
+    "robust_reached": "",
+    "robust_tried": "",
+    "robust_clearance": "mm",
+    "robust_tip_force": "mN",
+    "robust_peak_field": "mT",
+    "robust_failed": "",
 }
 
 HEADS = {
@@ -54,11 +60,32 @@ HEADS = {
     "tightest bend [mm]": 18,
 }
 """Heads of the table in the terminal, and how wide the columns are; the first is as its names."""
+ROBUST = {
+    "outlet": 0,
+    "reached when off": 16,
+    "least clearance [mm]": 20,
+    "tip force [mN]": 14,
+    "largest field [mT]": 18,
+}
+"""The same of the table of what was tried."""
 
 
 def head(names: Sequence[str]) -> str:
     """The first row of the table, for outlets of these names."""
-    return _line(list(HEADS), names)
+    return _line(list(HEADS), HEADS, names)
+
+
+def robust_head(names: Sequence[str]) -> str:
+    """The first row of the table of what was tried, for outlets of these names."""
+    return _line(list(ROBUST), ROBUST, names)
+
+
+def robust_row(p: Prospect, names: Sequence[str]) -> str:
+    """What was tried of the way to an outlet, as it is printed when that is done."""
+    held = sum(trial.reached for trial in p.trials)
+    cells = [p.outlet, f"{held} of {len(p.trials)}"]
+    cells += [f"{1e3 * value:.3g}" for value in _worst(p.trials)]
+    return _line(cells, ROBUST, names)
 
 
 def row(p: Prospect, names: Sequence[str]) -> str:
@@ -79,12 +106,12 @@ def row(p: Prospect, names: Sequence[str]) -> str:
         f"{p.narrowest * 1e3:.3g} at {p.narrowest_at * 1e3:.4g}",
         bend + at,
     ]
-    return _line(cells, names)
+    return _line(cells, HEADS, names)
 
 
-def _line(cells: Sequence[str], names: Sequence[str]) -> str:
+def _line(cells: Sequence[str], heads: Mapping[str, int], names: Sequence[str]) -> str:
     first = max(len("outlet"), *map(len, names))
-    rest = zip(cells[1:], list(HEADS.values())[1:], strict=True)
+    rest = zip(cells[1:], list(heads.values())[1:], strict=True)
     sides = "<" + ">" * len(cells)
     texts = [f"{cell:{side}{width}}" for (cell, width), side in zip(rest, sides, strict=False)]
     return "  ".join([f"{cells[0]:<{first}}", *texts]).rstrip()
@@ -93,6 +120,28 @@ def _line(cells: Sequence[str], names: Sequence[str]) -> str:
 def reasons(prospects: Sequence[Prospect]) -> list[str]:
     """Why outlets are not reached, and what was tried again, a line each."""
     return [f"{p.outlet}: {p.reason}" for p in prospects if p.reason]
+
+
+def failures(prospects: Sequence[Prospect]) -> list[str]:
+    """What was tried and did not get there, and why, a line each."""
+    return [
+        f"{p.outlet}, {t.change}: not reached. {t.reason}"
+        for p in prospects
+        for t in p.trials
+        if not t.reached
+    ]
+
+
+def _worst(trials: Sequence[Trial]) -> tuple[float, float, float]:
+    """Smallest clearance [m], largest tip force [N] and largest field [T] of all that was tried."""
+    if not trials:
+        return math.nan, math.nan, math.nan
+    clearances = [t.clearance for t in trials if not math.isnan(t.clearance)]
+    return (
+        min(clearances, default=math.nan),
+        max(t.tip_force for t in trials),
+        max(t.peak_field for t in trials),
+    )
 
 
 def save(lumen: Lumen, prospects: Sequence[Prospect], folder: Path, mark: str = "") -> list[Path]:
@@ -161,9 +210,17 @@ def _course(p: Prospect) -> dict[str, Any]:
             values[one.name] = value.tolist()
         elif isinstance(value, Bend):
             values[one.name] = [_number(value.radius), _number(value.arc)]
+        elif isinstance(value, tuple):
+            values[one.name] = [_trial(trial) for trial in value]
         else:
             values[one.name] = _number(value) if isinstance(value, float) else value
     return values
+
+
+def _trial(trial: Trial) -> dict[str, Any]:
+    """A trial in SI."""
+    values = {one.name: getattr(trial, one.name) for one in fields(trial)}
+    return {n: _number(v) if isinstance(v, float) else v for n, v in values.items()}
 
 
 def _prospect(course: Mapping[str, Any]) -> Prospect:
@@ -173,8 +230,13 @@ def _prospect(course: Mapping[str, Any]) -> Prospect:
         value = course[one.name]
         if one.name == "bend":
             values[one.name] = Bend(float(value[0]), float(value[1]))
+        elif one.name == "trials":
+            values[one.name] = tuple(
+                Trial(**trial | {"clearance": float(trial["clearance"])}) for trial in value
+            )
         elif isinstance(value, list):
-            values[one.name] = np.array(value, dtype=np.float64)
+            shape = (-1, 3) if one.name == "field_components" else -1
+            values[one.name] = np.array(value, dtype=np.float64).reshape(shape)
         elif one.name in ("outlet", "reason", "reached"):
             values[one.name] = value
         else:
@@ -204,8 +266,24 @@ def _row(p: Prospect) -> dict[str, str | float | bool]:
         "guide_torque": p.guide_torque,
         "clearance": p.clearance,
     }
-    numbers = {name: float(f"{1e3 * value:.6g}") for name, value in values.items()}
-    return {"outlet": p.outlet, "reached": p.reached, **numbers, "reason": p.reason}
+    clearance, tip_force, peak_field = _worst(p.trials)
+    return {
+        "outlet": p.outlet,
+        "reached": p.reached,
+        **{name: _rounded(value) for name, value in values.items()},
+        "reason": p.reason,
+        "robust_reached": sum(trial.reached for trial in p.trials),
+        "robust_tried": len(p.trials),
+        "robust_clearance": _rounded(clearance),
+        "robust_tip_force": _rounded(tip_force),
+        "robust_peak_field": _rounded(peak_field),
+        "robust_failed": "; ".join(trial.change for trial in p.trials if not trial.reached),
+    }
+
+
+def _rounded(value: float) -> float:
+    """In thousandths of SI, to six digits."""
+    return float(f"{1e3 * value:.6g}")
 
 
 def _finite(row: Mapping[str, str | float | bool]) -> dict[str, str | float | bool | None]:

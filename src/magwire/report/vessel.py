@@ -15,6 +15,7 @@ from magwire.vessel.placement import Placement, missing_unit, sizes
 from magwire.vessel.reading import called
 
 MM = 1e3
+STRAIGHT = 1e3  # radius of a bend over the length, from which it is none
 
 
 class Inspected(NamedTuple):
@@ -41,8 +42,8 @@ def inspect(
     source
         The file, the folder or the files.
     units
-        Its numbers'; if left out, and if the file states none, the likeliest, which is no refusal
-        where it is the only plausible one.
+        Its numbers'; if left out, and if the file states none, the likeliest, which a run would not
+        take.
     wire
         Texts by name: its ``diameter``, its ``modulus`` and the ``force`` that it may take.
     other
@@ -57,8 +58,7 @@ def inspect(
     stated = drawing.unit in DIMENSIONS["length"].units
     unit = units or (str(drawing.unit) if stated else sizes(drawing)[0].unit)
     vessel = Vessel.read(source, unit, **options)
-    known = units or stated or len(sizes(drawing)) == 1
-    refusal = "" if known else str(missing_unit(called(source), drawing))
+    refusal = "" if units or stated else str(missing_unit(called(source), drawing))
     words: tuple[str, ...] = ()
     try:
         vessel.lumen(wall=wall)
@@ -88,7 +88,8 @@ def _contents(drawing: Drawing) -> str:
         count = len(drawing.surface.triangles)
         return f"a surface of {count} triangles; its centrelines are extracted"
     count = sum(len(line.points) for line in drawing.lines)
-    return f"{len(drawing.lines)} centrelines with {count} points"
+    lines = "1 centreline" if len(drawing.lines) == 1 else f"{len(drawing.lines)} centrelines"
+    return f"{lines} with {count} points"
 
 
 def _unit_words(drawing: Drawing, units: str | None, stated: bool) -> str:
@@ -121,7 +122,9 @@ def _table(vessel: Vessel, wire: dict[str, str | None]) -> Iterator[str]:
     for course in survey.courses(vessel):
         way = vessel.ways[course.name]
         low, high = (MM * radius for radius in course.radii)
-        bend = "straight" if math.isinf(course.bend.radius) else f"{MM * course.bend.radius:.2f}"
+        bend = f"{MM * course.bend.radius:.2f}"
+        if course.bend.radius > STRAIGHT * course.length:
+            bend = "straight"
         rows.append(
             (
                 course.name,

@@ -12,7 +12,9 @@ from scipy.spatial import KDTree
 
 from magwire.vessel.files.drawing import Array
 
-NEIGHBOURS = 24  # balls of about one size that are compared: the deepest is among the nearest
+NEIGHBOURS = 8  # balls of about one size that are compared at first
+MORE = 4  # times, where a wider one that is farther away may be deeper
+SIZES = 4.0  # classes of size in an octave
 
 DENSER = 4  # times: what is between balls of tubes is less than a hundredth of the radius
 
@@ -48,16 +50,24 @@ class Balls:
         """How deep points, shape (n, 3) [m], are inside, shape (n,) [m]; negative outside."""
         best = np.full(len(points), -np.inf) if self.finer is None else self.finer.depth(points)
         for tree, radius in self._sizes:
-            count = min(NEIGHBOURS, len(radius))
-            distance, which = tree.query(points, k=count)
-            value = (radius[which] - distance).reshape(len(points), -1).max(axis=1)
-            best = np.maximum(best, value)
+            left, count = np.arange(len(points)), NEIGHBOURS
+            while len(left) > 0:
+                count = min(count, len(radius))
+                distance, which = tree.query(points[left], k=count)
+                distance = distance.reshape(len(left), -1)
+                value = (radius[which].reshape(distance.shape) - distance).max(axis=1)
+                best[left] = np.maximum(best[left], value)
+                # those that are farther than all these may be deeper only if they are wider
+                left = left[best[left] < radius.max() - distance[:, -1]]
+                if count == len(radius):
+                    break
+                count *= MORE
         return best
 
     @cached_property
     def _sizes(self) -> list[tuple[KDTree, Array]]:
         """Balls of about one size each, since the deepest one need not be the nearest."""
-        size = np.floor(np.log2(self.radius / self.radius.min())).astype(np.int64)
+        size = np.floor(SIZES * np.log2(self.radius / self.radius.min())).astype(np.int64)
         return [(KDTree(self.points[size == k]), self.radius[size == k]) for k in np.unique(size)]
 
 

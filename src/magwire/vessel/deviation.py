@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -39,7 +39,7 @@ class Deviation(NamedTuple):
     inside: Side
 
 
-def deviation(tubes: Mapping[str, Array], original: Original, count: int = SAMPLES) -> Deviation:
+def deviation(tubes: Sequence[Array], original: Original, count: int = SAMPLES) -> Deviation:
     """How far the walls of tubes are from those of the file.
 
     Parameters
@@ -62,11 +62,11 @@ def _side(off: Array, radius: Array) -> Side:
     return Side(tuple(metres.tolist()), tuple(radii.tolist()))
 
 
-def _wall(tubes: Mapping[str, Array], count: int) -> tuple[Array, Array]:
+def _wall(tubes: Sequence[Array], count: int) -> tuple[Array, Array]:
     """Points all over the wall of the union of tubes, and the radius there."""
     seen: set[bytes] = set()
     parts = []
-    for balls in tubes.values():
+    for balls in tubes:
         keys = [row.tobytes() for row in balls]
         first = next((k for k, key in enumerate(keys) if key not in seen), len(keys))
         seen.update(keys[first:])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +27,7 @@ LISTED = 8  # holes that are named one by one
 SHORTEST = 3.0  # length of a tube, over its largest radius
 NO_TUBE = 1.5  # how far half the surface may be from the balls inside, over their radius
 REACHES = 4.0  # length of a branch without a cap, over the radius where it leaves
+BLOCKED = 1.5  # radius of a ball that blocks a tube, over its radius
 BRANCHES = 60
 MOST = 1000  # points of a line
 ROUGHLY = 0.3  # part by which the distance in the cost may be off
@@ -81,6 +82,13 @@ def extract(surface: Surface, choose: Choice = widest) -> Extracted:
     hull = shell(surface)
     ends, notes, holes = _without_holes(hull)
     closed = Surface(hull.points, np.concatenate([hull.wall, hull.caps[holes[hull.cap_of]]]))
+    rings = _rings(np.concatenate([hull.wall, hull.caps]))
+    if rings > 0:
+        notes = (
+            *notes,
+            f"The surface goes round in {rings} loop{'s' if rings > 1 else ''}; paths take the "
+            "shorter side of each, and what is on the other one only is left out.",
+        )
     if len(ends) > 1 and vmtk.installed():
         named = _named(ends)
         first = choose(named)
@@ -126,7 +134,9 @@ def _through_voxels(
     tree = KDTree(samples)
     distance = to_wall(tree, inside.centres, within=ROUGHLY)[0]
     graph = inside.graph((distance.max() / np.maximum(distance, 0.1 * inside.cell)) ** SHYNESS)
-    ends = ends or _tips(inside, distance, tree)
+    if not ends:
+        loops = _rings(np.concatenate([hull.wall, hull.caps])) > 0
+        ends = _tips(inside, distance, loops)
     if len(ends) < 2:
         raise FileFaultError(f"has a surface with {len(ends)} open ends; expected two at least")
     named = _named(ends)
@@ -142,6 +152,30 @@ def _through_voxels(
             points = _pulled(way, tree, inside.cell, (named[first], end))
             lines.append(Line("", points, to_wall(tree, points, within=0.002)[0]))
     return tuple(lines), named, _accuracy(lines, samples, spacing)
+
+
+def _rings(triangles: Indices) -> int:
+    """How often a closed surface goes round: its genus, from what Euler's formula says."""
+    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    edges, uses = np.unique(sides, axis=0, return_counts=True)
+    if np.any(uses != 2):
+        return 0
+    return max(1 - (len(np.unique(triangles)) - len(edges) + len(triangles)) // 2, 0)
+
+
+def _goes_round(centres: Array, graph: Any, way: Indices, distance: Array) -> bool:
+    """Whether there is another way between the ends of one, wherever it is blocked."""
+    for part in (0.25, 0.5, 0.75):
+        block = int(way[int(part * len(way))])
+        away = np.linalg.norm(centres - centres[block], axis=1)
+        free = away > BLOCKED * distance[block]
+        if not free[way[[0, -1]]].all():
+            return False
+        label = connected_components(graph[free][:, free], directed=False)[1]
+        place = np.cumsum(free) - 1
+        if label[place[way[0]]] != label[place[way[-1]]]:
+            return False
+    return True
 
 
 def _typical(hull: Shell) -> float:
@@ -184,8 +218,11 @@ def _without_holes(hull: Shell) -> tuple[list[End], tuple[str, ...], NDArray[np.
     return kept, (f"Holes in the wall: {len(holes)}, closed, {'; '.join(where)}{more}.",), closed
 
 
-def _tips(inside: Interior, distance: Array, tree: KDTree) -> list[End]:
-    """Ends of a vessel without caps: the tips of its branches, farthest first."""
+def _tips(inside: Interior, distance: Array, loops: bool) -> list[End]:
+    """Ends of a vessel without caps: the tips of its branches, farthest first.
+
+    ``loops``: whether its surface goes round somewhere, if only in a small handle.
+    """
     graph = inside.graph(np.ones(len(inside.centres)))
     start = int(np.argmax(distance))
     start = int(np.argmax(dijkstra(graph, directed=False, indices=start)))
@@ -196,10 +233,20 @@ def _tips(inside: Interior, distance: Array, tree: KDTree) -> list[End]:
         )
         tip = int(np.argmax(far))
         way = _way(before, tip)
+        if loops and len(tips) == 1 and _goes_round(inside.centres, graph, way, distance):
+            raise FileFaultError(
+                "has a closed surface that goes round in a loop; expected the inner wall of a "
+                "vessel that is open, or has flat caps, at its ends"
+            )
         if far[tip] < REACHES * distance[way[0]] and len(tips) > 1:
             break
         tips.append(tip)
         taken = np.concatenate([taken, way])
+    else:
+        raise FileFaultError(
+            f"has a closed surface of more than {BRANCHES} branches; expected the inner wall of a "
+            "vessel, open or with flat caps at its ends"
+        )
     return [_tip_end(inside.centres[tip], inside, distance) for tip in tips]
 
 

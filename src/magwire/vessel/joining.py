@@ -14,6 +14,7 @@ from magwire.vessel.files.drawing import Array, FileFaultError, Indices, Line
 from magwire.vessel.words import long, place
 
 MERGED = 0.1  # distance at which points of two lines are one, over the radius
+WIDER = 1.05  # radius of a point over that of one which stands for it, from which it counts
 NEIGHBOURS = 4  # points along a line that count as joined already
 BRIDGED = 2.0  # largest gap between a line's end and another line, over the radius
 NOTED = 0.5  # gap that is worth a word, over the radius
@@ -46,6 +47,17 @@ def merged(points: Array, radius: Array, owner: Indices) -> tuple[Indices, list[
         words = ", ".join(map(str, repeated))
         notes.append(f"Lines that repeat others are left out: {words}.")
     return stand_in, notes
+
+
+def widest(radius: Array, stand_in: Indices) -> Array:
+    """Radii where a point that stands for one that is clearly wider is as wide as that, shape (n,).
+
+    So is a side branch that begins on the line of its trunk. Of lines that say about the same of a
+    trunk that they share the first counts, since the largest of noisy radii is too large.
+    """
+    most = radius.copy()
+    np.maximum.at(most, stand_in, radius)
+    return np.where(most > WIDER * radius, most, radius)
 
 
 def _close_pairs(points: Array, radius: Array) -> tuple[Indices, Indices, Array]:

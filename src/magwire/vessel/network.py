@@ -81,6 +81,7 @@ class Network:
         first = np.concatenate([[0], np.cumsum([len(line.points) for line in lines])])
         owner = np.repeat(np.arange(len(lines)), np.diff(first))
         stand_in, notes = joining.merged(points, radius, owner)
+        radius = joining.widest(radius, stand_in)
         pairs = joining.pairs(stand_in, owner)
         bridges, more = joining.bridges(points, radius, pairs, stand_in, first)
         pairs = np.concatenate([pairs, bridges])
@@ -94,6 +95,8 @@ class Network:
         places[kept] = np.arange(len(kept))
         edges = joining.matrix(points[kept], pairs)
         ends = joining.ends(lines, first, places[stand_in], edges)
+        if not ends:
+            raise FileFaultError("is a ring, without an open end to enter at")
         if named:
             leaves = list(ends.values())
             tree = KDTree(points[kept][leaves])

@@ -15,7 +15,7 @@ from magwire.units import DIMENSIONS
 from magwire.vessel.balls import Original
 from magwire.vessel.clean import clean
 from magwire.vessel.files import Drawing, Line, Surface, load
-from magwire.vessel.files.drawing import Array, FileFaultError
+from magwire.vessel.files.drawing import NO_WAY, Array, FileFaultError
 from magwire.vessel.files.drawing import refuse as refuse_file
 from magwire.vessel.mesh import End
 from magwire.vessel.network import Network
@@ -142,7 +142,8 @@ def _placed(
         notes = (*notes, *extracted.notes)
     known = options.entrance is None or isinstance(options.entrance, str)
     if drawing.entrance and known and options.entrance in (None, drawing.entrance):
-        ends = {drawing.entrance: lines[0].points[0], **{x.name: x.points[-1] for x in lines}}
+        ends = {x.name: x.points[-1] for x in lines if x.name != NO_WAY}
+        ends = {drawing.entrance: lines[0].points[0], **ends}
         return Found(None, lines, drawing.entrance, ends, None, notes, None)
     if not drawing.entrance and surface is None:
         notes = (*notes, *hints(drawing.arrays, lines, options.extend))

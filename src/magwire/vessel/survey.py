@@ -77,7 +77,7 @@ class Reach(NamedTuple):
 def courses(vessel: Vessel) -> list[Course]:
     """The paths to all outlets, in their order."""
     found, before = [], np.zeros((0, 4))
-    every = wall(list(vessel.balls.values()))
+    every = wall([*vessel.balls.values(), *vessel.trunks])
     for name, tube in vessel.tubes.items():
         arcs = tube.curve.knots()
         balls = tube.curve.at(arcs)

@@ -16,7 +16,7 @@ from magwire.lumen.lazy import Lazy
 from magwire.vessel.balls import Original
 from magwire.vessel.deviation import LIMIT, Deviation, deviation
 from magwire.vessel.files import Surface
-from magwire.vessel.files.drawing import Array
+from magwire.vessel.files.drawing import NO_WAY, Array
 from magwire.vessel.placement import OWNER
 from magwire.vessel.reading import SMOOTHING, Found, Options, Source, Spot, chosen, found
 from magwire.vessel.ways import Tube
@@ -71,6 +71,8 @@ class Vessel:
         The file's triangles, if it has any [m].
     wall
         The same, open at the vessel's ends and nowhere else [m].
+    trunks
+        Balls of trunks that are wall though no path runs straight through them, shape (n, 4) [m].
     """
 
     balls: Mapping[str, Array]
@@ -82,6 +84,7 @@ class Vessel:
     original: Original | None = None
     surface: Surface | None = None
     wall: Surface | None = None
+    trunks: tuple[Array, ...] = ()
 
     @classmethod
     def read(
@@ -146,7 +149,9 @@ class Vessel:
     @cached_property
     def deviation(self) -> Deviation | None:
         """How far the walls of the tubes are from those of the file; None without one."""
-        return None if self.original is None else deviation(self.balls, self.original)
+        if self.original is None:
+            return None
+        return deviation([*self.balls.values(), *self.trunks], self.original)
 
     @property
     def deviation_words(self) -> tuple[str, ...]:
@@ -233,7 +238,7 @@ class Vessel:
                 f"Input wall of {OWNER} must be 'balls' for a file without a surface; received "
                 "'surface'."
             )
-        lumen = Lumen.ways(self.balls, target=self.outlet(target), blend=blend)
+        lumen = Lumen.ways(self.balls, trunks=self.trunks, target=self.outlet(target), blend=blend)
         if wall == "balls" or self.wall is None:
             return lumen
         return lumen.with_surface(self.wall.points, self.wall.triangles)
@@ -263,8 +268,10 @@ def _vessel(read: Found, options: Options) -> Vessel:
     """The vessel that a file makes."""
     if read.ways is None:
         still = {x.name: Way((0.0, 0.0), 0.0, x.points[0]) for x in read.lines}
-        made = {x.name: np.column_stack([x.points, x.radius]) for x in read.lines}
-        return Vessel(made, read.entrance, read.ends, still, notes=read.notes)
+        rows = [(x.name, np.column_stack([x.points, x.radius])) for x in read.lines]
+        made = {name: balls for name, balls in rows if name != NO_WAY}
+        stay = tuple(balls for name, balls in rows if name == NO_WAY)
+        return Vessel(made, read.entrance, read.ends, still, notes=read.notes, trunks=stay)
     tubes = read.ways.tubes
     return Vessel(
         Lazy({name: partial(_balls, tube) for name, tube in tubes.items()}),
@@ -276,6 +283,7 @@ def _vessel(read: Found, options: Options) -> Vessel:
         read.original,
         read.surface,
         read.wall,
+        read.ways.trunks,
     )
 
 

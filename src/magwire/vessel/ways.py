@@ -12,16 +12,19 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
+from scipy.spatial import KDTree
 
 from magwire.vessel.balls import Original, wall
 from magwire.vessel.files.drawing import Array, Indices
 from magwire.vessel.network import Network
 from magwire.vessel.smooth import STEP, Smoothed, smooth
+from magwire.vessel.trunks import trunks
 from magwire.vessel.words import long, place
 
 SPUR = 1.5  # shortest branch that counts, over the radius where it leaves
 TOLD = 0.5  # part of the radius that is lost, from which that is told
 LISTED = 8  # paths that are named one by one
+OUTLET = 2.0  # length of a path that belongs to its outlet, over the radius
 LEAD = 32.0  # how far before it leaves a path is smoothed, over radius and length of smoothing
 
 
@@ -71,10 +74,14 @@ class Tube:
 
 
 class Ways(NamedTuple):
-    """The paths by the names of their ends, and what was left out, a sentence each."""
+    """The paths by the names of their ends, and what was left out, a sentence each.
+
+    With the balls of the trunks that are wall, but no path, shape (n, 4) [m] each.
+    """
 
     tubes: dict[str, Tube]
     notes: tuple[str, ...]
+    trunks: tuple[Array, ...] = ()
 
 
 def ways(
@@ -116,8 +123,10 @@ def ways(
             )
         tubes[name] = made[1]
         owner.update((node, made[1]) for node in nodes if node not in owner)
-    tubes = _together(tubes, original)
-    return Ways(tubes, (*notes, *_narrowed(tubes)))
+    led = [ends[name] for name in tubes]
+    stay = trunks(network, (before, step), led, list(_balls(tubes)), (smoothing, original))
+    tubes = _together(tubes, stay.balls, original)
+    return Ways(tubes, (*notes, *stay.notes, *_narrowed(tubes)), stay.balls)
 
 
 def _own(end: int, before: Indices, owner: dict[int, Tube]) -> list[int]:
@@ -173,11 +182,13 @@ def _tube(
     )
 
 
-def _together(tubes: dict[str, Tube], original: Original) -> dict[str, Tube]:
+def _together(
+    tubes: dict[str, Tube], stay: tuple[Array, ...], original: Original
+) -> dict[str, Tube]:
     """The paths with what the vessel loses to them: in a wide trunk a narrow way loses nothing."""
     if not tubes:
         return tubes
-    every = wall([np.column_stack([tube.points, tube.radius]) for tube in tubes.values()])
+    every = wall([*_balls(tubes), *stay])
     made: dict[Tube, Tube] = {}
     for tube in tubes.values():
         lost = tube.narrowed.copy()
@@ -189,6 +200,12 @@ def _together(tubes: dict[str, Tube], original: Original) -> dict[str, Tube]:
         parent = None if tube.parent is None else made[tube.parent]
         made[tube] = replace(tube, parent=parent, narrowed=lost)
     return {name: made[tube] for name, tube in tubes.items()}
+
+
+def _balls(tubes: dict[str, Tube]) -> Iterator[Array]:
+    """Balls of what each path has of its own, shape (n, 4) [m]."""
+    for tube in tubes.values():
+        yield np.column_stack([tube.points, tube.radius])
 
 
 def _narrowed(tubes: dict[str, Tube]) -> list[str]:
@@ -219,6 +236,43 @@ def _why(found: Smoothed) -> str:
     )
 
 
+class _Crowd(NamedTuple):
+    """The points on paths, among which an end may lie.
+
+    Attributes
+    ----------
+    network, nodes
+        The network, and the points.
+    tree
+        For looking for them.
+    reach, ends
+        Distance of each from the two nearest ends, and these, shape (n, 2).
+    """
+
+    network: Network
+    nodes: Indices
+    tree: KDTree
+    reach: Array
+    ends: Indices
+
+    @classmethod
+    def of(cls, network: Network, nodes: Indices, ends: list[int]) -> _Crowd:
+        places = network.points[nodes]
+        some = np.array(ends, dtype=np.int64)
+        reach, which = KDTree(network.points[some]).query(places, k=[1, 2])
+        return cls(network, nodes, KDTree(places), reach, np.append(some, -1)[which])
+
+    def holds(self, end: int, own: list[int]) -> bool:
+        """Whether an end lies inside of a tube that is not its own, and that does not end there."""
+        points, radius = self.network.points, self.network.radius
+        near = np.array(self.tree.query_ball_point(points[end], radius.max()), dtype=np.int64)
+        nodes = self.nodes[near]
+        other = np.where(self.ends[near, 0] == end, self.reach[near, 1], self.reach[near, 0])
+        inside = radius[nodes] > np.linalg.norm(points[nodes] - points[end], axis=1)
+        inside &= (other > OUTLET * radius[nodes]) & ~np.isin(nodes, own)
+        return bool(inside.any())
+
+
 def _without_spurs(
     network: Network, start: int, course: tuple[Indices, Array], ends: dict[str, int]
 ) -> tuple[dict[str, int], list[str]]:
@@ -231,6 +285,7 @@ def _without_spurs(
             if users[node] > 1:
                 break
     kept, notes = dict(ends), []
+    crowd = _Crowd.of(network, np.fromiter(users, dtype=np.int64), list(ends.values()))
     for name, end in ends.items():
         own = [end]
         while users[own[-1]] == 1 and own[-1] != start:
@@ -241,6 +296,11 @@ def _without_spurs(
         if length < SPUR * network.radius[last]:
             del kept[name]
             notes.append(f"A spur of {long(length)}, '{name}', is left out.")
+            users[last] -= 1
+            continue
+        if crowd.holds(end, own):
+            del kept[name]
+            notes.append(f"The path to '{name}' is left out: it ends inside of another one's tube.")
             users[last] -= 1
     return kept, notes
 

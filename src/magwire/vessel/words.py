@@ -15,5 +15,5 @@ def long(metres: float) -> str:
 
 def place(point: ArrayLike) -> str:
     """A point, shape (3,) [m], in millimetres."""
-    x, y, z = MM * np.asarray(point, dtype=np.float64) + 0.0
+    x, y, z = np.round(MM * np.asarray(point, dtype=np.float64), 9) + 0.0  # no -0
     return f"({x:.4g}, {y:.4g}, {z:.4g}) mm"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,7 +14,7 @@ from magwire.cli.words import INTERRUPTED, complain, say, say_if_compiling
 
 if TYPE_CHECKING:
     from magwire.cli.errand import Work
-    from magwire.planning import Prospect
+    from magwire.planning import Prospect, Trial
 
 
 def plan_outlets(
@@ -24,6 +26,7 @@ def plan_outlets(
     youngs_modulus: str | None = None,
     magnetization: str | None = None,
     magnetized_tip: str | None = None,
+    robust: Flag = False,
     workers: int | None = None,
     out: Path | None = None,
     force: Flag = False,
@@ -49,6 +52,9 @@ def plan_outlets(
         With a vessel's file: of the magnet along its axis, "128 kA/m" if left out.
     magnetized_tip
         With a vessel's file: length of the magnet; ten radii of the wire if left out.
+    robust
+        Try what is reached once more with edges 0.75 and 1.25 times as long, moduli 5 percent and
+        the field 3 percent off, and the vessel 0.2 mm beside: a second table.
     workers
         Processes, each of which plans for one outlet at a time; one for each core if left out.
     out
@@ -89,50 +95,100 @@ def plan_outlets(
         work = errand.of_file(source, reading.units, words, reading.options(), reading.wall)
     wanted = errand.outlets(work, target)
     if out is None:
-        _carry_out(work, wanted, None, count)
+        _carry_out(work, wanted, None, count, robust=robust)
         return 0
     again = not force and outlets.begun(out, errand.fingerprint(work))
     with occupied(out, force=force or again):
         if again:
             complain(f"Taking up the plan in '{out}'.")
         try:
-            _carry_out(work, wanted, out, count, again=again)
+            known = outlets.taken_up(out) if again else []
+            _carry_out(work, wanted, out, count, robust=robust, known=known)
         except KeyboardInterrupt:
             complain(f"Interrupted; the same command takes up the plan in '{out}' again.")
             return INTERRUPTED
+    for file in outlets.files(out):
+        say(str(file))
     return 0
 
 
 def _carry_out(
-    work: Work, names: tuple[str, ...], out: Path | None, workers: int, *, again: bool = False
+    work: Work,
+    names: tuple[str, ...],
+    out: Path | None,
+    workers: int,
+    *,
+    robust: bool,
+    known: Sequence[Prospect] = (),
+) -> None:
+    """Plan for the outlets, and try what is reached if that is asked for."""
+    for note in work.notes:
+        say(note)
+    done = {prospect.outlet: prospect for prospect in known}
+    _plan(work, names, out, workers, done)
+    if robust:
+        _check(work, names, out, workers, done)
+
+
+def _plan(
+    work: Work, names: tuple[str, ...], out: Path | None, workers: int, done: dict[str, Prospect]
 ) -> None:
     """Plan for the outlets; say and write each as it is done, first those of an earlier time."""
     from magwire.cli import errand
     from magwire.report import outlets
     from magwire.report.progress import pieces
 
-    for note in work.notes:
-        say(note)
     say(outlets.head(names))
-    done: list[Prospect] = []
-    files: list[Path] = []
-    if again and out is not None:
-        done, files = outlets.taken_up(out), outlets.files(out)
-        for prospect in done:
-            if prospect.outlet in names:
-                say(outlets.row(prospect, names))
-    known = {prospect.outlet for prospect in done}
-    left = [name for name in names if name not in known]
-    mark = "" if out is None else errand.fingerprint(work)
+    for prospect in done.values():
+        if prospect.outlet in names:
+            say(outlets.row(prospect, names))
+    left = [name for name in names if name not in done]
     with pieces(len(left)) as begin:
         begin(", ".join(left[:workers]))
         for prospect in errand.carried_out(work, left, workers):
-            done.append(prospect)
+            done[prospect.outlet] = prospect
             say(outlets.row(prospect, names))
-            if out is not None:
-                with writing_to(out):
-                    files = outlets.save(work.lumen, done, out, mark)
-            begin(", ".join(n for n in left if n not in {p.outlet for p in done}))
-    asked = [prospect for prospect in done if prospect.outlet in names]
-    for line in [*outlets.reasons(asked), *map(str, files)]:
+            _save(work, done, out)
+            begin(", ".join(n for n in left if n not in done))
+    for line in outlets.reasons([done[name] for name in names]):
         say(line)
+
+
+def _check(
+    work: Work, names: tuple[str, ...], out: Path | None, workers: int, done: dict[str, Prospect]
+) -> None:
+    """Try the ways to outlets; say and write each when all is tried of it."""
+    from magwire.cli import errand
+    from magwire.perturbations import CHANGES
+    from magwire.report import outlets
+    from magwire.report.progress import pieces
+
+    reached = [done[name] for name in names if done[name].reached]
+    left = [prospect for prospect in reached if not prospect.trials]
+    say("")
+    say(outlets.robust_head(names))
+    for prospect in reached:
+        if prospect.trials:
+            say(outlets.robust_row(prospect, names))
+    trials: dict[str, list[Trial]] = {prospect.outlet: [] for prospect in left}
+    with pieces(len(left) * len(CHANGES)) as begin:
+        begin("")
+        for name, trial in errand.checked(work, left, workers):
+            trials[name].append(trial)
+            if len(trials[name]) == len(CHANGES):
+                done[name] = replace(done[name], trials=errand.in_order(trials[name]))
+                say(outlets.robust_row(done[name], names))
+                _save(work, done, out)
+            begin(f"{name}, {trial.change}")
+    for line in outlets.failures([done[name] for name in names]):
+        say(line)
+
+
+def _save(work: Work, done: dict[str, Prospect], out: Path | None) -> None:
+    """Write what is done, if it is to be written."""
+    from magwire.cli import errand
+    from magwire.report import outlets
+
+    if out is not None:
+        with writing_to(out):
+            outlets.save(work.lumen, list(done.values()), out, errand.fingerprint(work))

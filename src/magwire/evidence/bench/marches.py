@@ -19,6 +19,10 @@ FRICTION_NOTE = (
     "Ratio: a step with friction over one without. F*: force on the tip node, times L^2/EI."
 )
 BY_HAND_NOTE = "Other feed speed and inputs in every step. Ratio: over a step of a call of 1,000."
+ACTUATORS_NOTE = (
+    "Points: flux density, gradient and second derivatives at 100 points along a wire.\n"
+    "Ratio: a step over one in a uniform field. 33 dipoles: as many as OctoMag's calibration has."
+)
 TREE_NOTE = "With very few points to a branch the spline through them is another tube."
 
 
@@ -83,6 +87,28 @@ def by_hand(rows: Sequence[Row]) -> Table:
             row["how"],
             *(f"{1e6 * spent / samples[0]['steps']:.1f}" for spent in times),
             *(f"{ratio:.2f}" for ratio in ratios),
+        )
+    return made
+
+
+def by_actuator(rows: Sequence[Row]) -> Table:
+    """What a field of coils costs next to a uniform one."""
+    made = table(
+        "16  Fields of coils: half-circle, N = 100, passive, dt = 10 ms",
+        *("field", "us/step", "min", "ratio", "ratio\nof min", "us /\n100 points", "min"),
+    )
+    uniform = rows[0]["samples"]
+    for row in rows:
+        times = [pick(row["samples"], "seconds") for pick in PICKS]
+        ratios = [
+            spent / pick(uniform, "seconds") for spent, pick in zip(times, PICKS, strict=True)
+        ]
+        at = [f"{1e6 * pick(row['points'], 'seconds'):.1f}" for pick in PICKS if row["points"]]
+        made.add_row(
+            row["what"],
+            *(f"{1e6 * spent:.1f}" for spent in times),
+            *(f"{ratio:.2f}" for ratio in ratios),
+            *(at or ["-", "-"]),
         )
     return made
 

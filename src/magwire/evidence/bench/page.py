@@ -85,6 +85,8 @@ def tables(results: dict[str, Any]) -> Iterator[tuple[Table, str]]:
         yield marches.by_friction(results["friction"]), marches.FRICTION_NOTE
     if results.get("by_hand"):
         yield marches.by_hand(results["by_hand"]), marches.BY_HAND_NOTE
+    if results.get("actuators"):
+        yield marches.by_actuator(results["actuators"]), marches.ACTUATORS_NOTE
     if results.get("driving"):
         yield others.by_driving(results["driving"]), others.DRIVING_NOTE
 

@@ -29,6 +29,7 @@ def measure(
     import numba
 
     from magwire.evidence.bench import (
+        actuators,
         by_hand,
         cases,
         driving,
@@ -47,6 +48,7 @@ def measure(
     began, before = time.perf_counter(), load_average()
     results = cases.run_all(extent, count, tell)
     results["by_hand"] = by_hand.run_by_hand(0.1 if quick else 0.5, count, tell)
+    results["actuators"] = actuators.run_actuators(0.1 if quick else extent.push, count, tell)
     results["updates"] = updates.run_updates(
         UPDATES[1:2] if quick else UPDATES, 0.2 if quick else extent.push, few, tell
     )

@@ -20,7 +20,7 @@ from math import inf, nan, sqrt
 
 from numpy import int32
 
-from magwire.kernels._jit import kernel
+from magwire.kernels._jit import kernel, part, short
 from magwire.kernels.centreline import (
     BEGIN,
     BLEND,
@@ -276,7 +276,7 @@ def balls_jet(lumen, x, y, z):
 # length of a tuple is part of its type: kernels for walls of balls are compiled without triangles.
 
 
-@kernel
+@short
 def wall_value(sheets, lumen, x, y, z):
     """See ``gap_value``; ``sheets`` as of ``LumenArrays``."""
     if len(sheets) == 0:
@@ -286,7 +286,7 @@ def wall_value(sheets, lumen, x, y, z):
         return g, nan, -1, safe
 
 
-@kernel
+@short
 def wall_jets(sheets, lumen, x, y, z):
     """See ``gap_jet``; ``sheets`` as of ``LumenArrays``."""
     if len(sheets) == 0:
@@ -306,7 +306,7 @@ def gap_value(lumen, x, y, z):
     return wall_value(lumen.sheet, lumen, x, y, z)
 
 
-@kernel
+@part
 def gap_jet(lumen, x, y, z):
     """Gap of a point with its gradient and Hessian; as of ``balls_jet`` and ``gap_value``."""
     u, v, w = at_rest(lumen.moving, x, y, z)
@@ -315,7 +315,7 @@ def gap_jet(lumen, x, y, z):
     return g, s, branch, safe, n, h
 
 
-@kernel
+@short
 def slopes(sheets):
     """Largest slope of the gap past an open end, over that elsewhere, and that."""
     if len(sheets) == 0:
@@ -324,7 +324,7 @@ def slopes(sheets):
         return STEEPEST, sheets[0].steep
 
 
-@kernel
+@short
 def fall(lumen):
     """By how much the gap falls at most for each length that a point moves; see ``gap_value``."""
     return pace(lumen.moving) * slopes(lumen.sheet)[1]

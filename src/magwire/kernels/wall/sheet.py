@@ -229,7 +229,7 @@ def opened(sheet, g, axial, radius):
     return inf, max(g, min(max(axial - radius, onward), sheet.margin))
 
 
-@kernel
+@part
 def sheet_value(sheet, x, y, z):
     """Gap of a point, and what ``gap_value`` calls safe."""
     row, base, t, _, end, away = find(sheet, x, y, z)
@@ -242,7 +242,7 @@ def sheet_value(sheet, x, y, z):
     return (g, g) if axial <= 0.0 else opened(sheet, g, axial, radius)
 
 
-@kernel
+@part
 def sheet_jet(sheet, x, y, z):
     """The same with gradient and Hessian, which are zero where g = +inf; as of ``gap_jet``."""
     none = (0.0, 0.0, 0.0)

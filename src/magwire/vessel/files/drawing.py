@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +21,8 @@ MOST_POINTS = 4_000_000
 MOST_CELLS = 2_000_000
 """Lines and polygons of a VTK file, at most."""
 UNIT = re.compile(r"\s*[\[(]\s*(\w+)\s*[\])]\s*$")
+NO_WAY = " "
+"""Name of a line that is wall, but no way to an end, in a file of magwire's."""
 RADII = ("maximuminscribedsphereradius", "radius", "radii", "r")
 """Names of arrays that hold the radius, the first one found counts; case does not matter."""
 
@@ -67,8 +70,8 @@ class Drawing(NamedTuple):
     arrays
         Names of the arrays that could have been the radius, for messages.
     entrance
-        Name of the end at which all lines start, in a file that magwire has made: its lines are
-        smooth tubes already. Empty in all others.
+        Name of the end at which all lines start but those called ``NO_WAY``, in a file that magwire
+        has made: its lines are smooth tubes already. Empty in all others.
     radius_unit
         Unit of the radius, if the file states one for it; that of the points if it does not.
     notes
@@ -123,6 +126,12 @@ def pick_radius(names: tuple[str, ...], wanted: str | None) -> str | None:
 def plain_name(name: str) -> str:
     """The name of an array without the unit behind it."""
     return UNIT.sub("", name)
+
+
+def are_ends(names: Sequence[str]) -> bool:
+    """Whether no two ends have the same name."""
+    ends = [name for name in names if name != NO_WAY]
+    return len(ends) > 1 and len(set(ends)) == len(ends)
 
 
 def unit_of(name: str | None) -> str | None:

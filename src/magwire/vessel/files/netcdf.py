@@ -11,7 +11,7 @@ import numpy as np
 from scipy.io import netcdf_file
 
 from magwire.files import write_whole
-from magwire.vessel.files.drawing import Drawing, FileFaultError, Line
+from magwire.vessel.files.drawing import Drawing, FileFaultError, Line, are_ends
 
 
 def read(data: bytes, radius: str | None) -> Drawing:
@@ -34,7 +34,7 @@ def read(data: bytes, radius: str | None) -> Drawing:
             owner = np.array(file.variables["line"][:], dtype=np.int64).reshape(-1)
     except Exception:  # a broken file may raise anything in there
         raise FileFaultError("is not a NetCDF file of a vessel") from None
-    if not len(points) == len(wide) == len(owner) or len(set(ends)) < len(ends):
+    if not len(points) == len(wide) == len(owner) or not are_ends(ends):
         raise FileFaultError("is not a NetCDF file of a vessel: its variables do not fit together")
     if len(ends) < 2 or not np.array_equal(np.unique(owner), np.arange(len(ends) - 1)):
         raise FileFaultError("is not a NetCDF file of a vessel: it must have one line for each end")

@@ -14,6 +14,7 @@ from magwire.vessel.files.drawing import (
     Indices,
     Line,
     Surface,
+    are_ends,
     chains,
     pick_radius,
     right_handed,
@@ -106,7 +107,7 @@ def drawn(poly: PolyData, radius: str | None) -> Drawing:
         lines = chains(np.array(lines), len(poly.points))
     name = pick_radius(names, radius)
     values = np.full(len(poly.points), np.nan) if name is None else poly.arrays[name]
-    made = len(ends) == len(lines) + 1 == len(set(ends))
+    made = len(ends) == len(lines) + 1 and are_ends(ends)
     called = ends[1:] if made else ("",) * len(lines)
     return Drawing(
         tuple(

@@ -7,7 +7,7 @@ import numpy as np
 from magwire.errors import InputError
 from magwire.files import TextFaultError, parse_toml
 from magwire.units import parse
-from magwire.vessel.files.drawing import Drawing, FileFaultError, Line
+from magwire.vessel.files.drawing import NO_WAY, Drawing, FileFaultError, Line
 
 ENTRANCE = "entrance"
 
@@ -23,11 +23,12 @@ def read(data: bytes, radius: str | None) -> Drawing:
         Not used: the radius has its column.
     """
     try:
-        branches = parse_toml(data.decode("utf-8-sig"))["lumen"]["branches"]
-        balls = {
-            name: np.array([[parse(value, "length") for value in row] for row in rows])
-            for name, rows in branches.items()
-        }
+        table = parse_toml(data.decode("utf-8-sig"))["lumen"]
+        given = [*table["branches"].items(), *((NO_WAY, rows) for rows in table.get("trunks", ()))]
+        balls = [
+            (name, np.array([[parse(value, "length") for value in row] for row in rows]))
+            for name, rows in given
+        ]
     except (TextFaultError, UnicodeDecodeError) as error:
         raise FileFaultError(f"is not valid TOML: {error}") from None
     except (KeyError, TypeError, AttributeError, ValueError) as error:
@@ -35,7 +36,7 @@ def read(data: bytes, radius: str | None) -> Drawing:
         raise FileFaultError(
             "has no lumen.branches of points with radii" + (f": {why}" if why else "")
         ) from None
-    if any(rows.ndim != 2 or rows.shape[1] != 4 for rows in balls.values()):
+    if any(rows.ndim != 2 or rows.shape[1] != 4 for _, rows in balls):
         raise FileFaultError("has lumen.branches with rows that are not x, y, z and radius")
-    lines = tuple(Line(name, rows[:, :3], rows[:, 3]) for name, rows in balls.items())
+    lines = tuple(Line(name, rows[:, :3], rows[:, 3]) for name, rows in balls)
     return Drawing(lines, unit="m", entrance=ENTRANCE if lines else "")

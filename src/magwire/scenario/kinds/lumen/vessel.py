@@ -29,6 +29,7 @@ Balls = Annotated[Numbers, Rows(BALL, least=2)]
 VECTORS = {"rotation": "angle", "translation": "length"}
 NUMBERS = ("scale", "smoothing", "extend")
 SPOTS = ("entrance", "target")
+MADE = ("branches", "trunks", "surface")
 KEYS = ("file", "units", "radius", "cut", *SPOTS, *NUMBERS, *VECTORS)
 
 
@@ -49,6 +50,9 @@ class VesselLumen(LumenTable):
     shape: Literal["vessel"]
     target: str
     branches: Annotated[dict[str, Balls], at_least_one("branch")]
+    trunks: list[Balls] | None = Field(
+        default=None, description="tubes that are wall, but no way to an outlet"
+    )
     wall: Literal["balls", "surface"] = preset("balls")
     surface: Annotated[Triangles, TrianglesText()] | None = Field(
         default=None, description="the wall's triangles, in place of balls"
@@ -75,9 +79,7 @@ class VesselLumen(LumenTable):
                 table,
                 [f"Input lumen.{key} needs lumen.file next to it; remove it." for key in keys],
             )
-        rest = {
-            key: value for key, value in table.items() if key not in (*KEYS, "branches", "surface")
-        }
+        rest = {key: value for key, value in table.items() if key not in (*KEYS, *MADE)}
         rest["shape"] = "vessel"
         found = _read(table, rest, folder)
         return found if found.faults else found._replace(reach=_reach(found.table or {}))
@@ -101,7 +103,8 @@ class VesselLumen(LumenTable):
         from magwire.lumen import Lumen
 
         tubes = {name: rows.values for name, rows in self.branches.items()}
-        lumen = Lumen.ways(tubes, target=self.target)
+        trunks = [rows.values for rows in self.trunks or ()]
+        lumen = Lumen.ways(tubes, trunks=trunks, target=self.target)
         if self.surface is None:
             return lumen
         return lumen.with_surface(self.surface.points, self.surface.triangles)
@@ -110,6 +113,11 @@ class VesselLumen(LumenTable):
 def rows_of(vessel: Vessel) -> dict[str, list[list[str]]]:
     """The tubes of a vessel as a scenario's file has them."""
     return {name: _rows(balls) for name, balls in vessel.balls.items()}
+
+
+def trunks_of(vessel: Vessel) -> list[list[list[str]]]:
+    """The trunks of a vessel that are no way, as a scenario's file has them."""
+    return [_rows(balls) for balls in vessel.trunks]
 
 
 def surface_of(sheet: Sheet) -> dict[str, str]:
@@ -121,7 +129,7 @@ def _read(table: dict[str, Any], rest: dict[str, Any], folder: Path) -> Inlined:
     """The rest of a table with the tubes of its file."""
     unread = (("lumen", "branches"), ("lumen", "target"), ("feed", "distance"))
     options, faults = _options(table)
-    for key in ("branches", "surface"):
+    for key in MADE:
         if key in table:
             faults.append(f"Input lumen.{key} cannot stand next to lumen.file; remove one of them.")
     given = table["file"] if isinstance(table["file"], list) else [table["file"]]
@@ -146,6 +154,8 @@ def _read(table: dict[str, Any], rest: dict[str, Any], folder: Path) -> Inlined:
         return Inlined(rest, [text], unread)
     tubes = {outlet: _measured(balls) for outlet, balls in vessel.balls.items()}
     made = {**rest, "target": lumen.target, "branches": tubes}
+    if vessel.trunks:
+        made["trunks"] = [_measured(balls) for balls in vessel.trunks]
     if lumen.sheet is not None:
         made["surface"] = Triangles(lumen.sheet.points, lumen.sheet.triangles)
     return Inlined(made, [], notes=notes)
