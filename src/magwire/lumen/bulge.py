@@ -121,7 +121,6 @@ def sheet_bulges(
     shape = np.ceil((high - low) / cube).astype(np.int64) + REACHED + 1
     value = np.full(tuple(shape), -np.inf)
     np.maximum.at(value, tuple(((points - low) / cube).astype(np.int64).T), sharpest)
-    from scipy.ndimage import maximum_filter  # slow to import, and not every wall has triangles
 
     value = maximum_filter(value, 2 * REACHED + 1, mode="nearest")
     value[value == -np.inf] = min(1.0 / cube, float(sharpest.max(initial=0.0)))
