@@ -111,17 +111,16 @@ def sheet_bulges(
     Where no wall is that near, the wall is as far away as an edge is long, and what is seen of a
     bulge there bends by less than one over that. At open ends it is not known.
     """
-    wall = build(sheet, branches)
-    points, sharpest = _sharpness(arrays, wall, inset)
     from scipy.ndimage import maximum_filter  # slow to import, and for triangles only
 
+    wall = build(sheet, branches)
+    points, sharpest = _sharpness(arrays, wall, inset)
     low, high = points.min(axis=0), points.max(axis=0)
     cube = max(edge, float(np.prod(high - low + edge) / CUBES) ** (1.0 / 3.0))
     low = low - (REACHED + 1) * cube
     shape = np.ceil((high - low) / cube).astype(np.int64) + REACHED + 1
     value = np.full(tuple(shape), -np.inf)
     np.maximum.at(value, tuple(((points - low) / cube).astype(np.int64).T), sharpest)
-
     value = maximum_filter(value, 2 * REACHED + 1, mode="nearest")
     value[value == -np.inf] = min(1.0 / cube, float(sharpest.max(initial=0.0)))
     middles = low + (np.moveaxis(np.indices(value.shape), 0, -1) + 0.5) * cube
