@@ -31,13 +31,14 @@ from magwire.lumen.tree import (
     missing,
     refusal,
     run_in,
+    tapered,
 )
 
 Array = NDArray[np.float64]
 
 LEAD = 6  # points before a path leaves, so that its curve does not begin there
 RUN_IN = 16  # points of a path behind where it leaves, about four radii
-BURIED = 0.5  # part of the radius by which an end of a trunk sticks out of others that are not wall
+BURIED = 0.5  # part of the radius by which an end of a trunk may stick out of other walls
 AT_ONCE = 8  # points that are looked at together
 
 
@@ -123,6 +124,7 @@ def _trunk(balls: Array, walls: Walls, width: float | None) -> Branch:
         is_open[end] = lost > BURIED * made[at, 3]
         if not is_open[end]:
             radius -= run_in(lost, made[at, 3], along)
+    radius = tapered(radius, arcs)
     return Branch(made[:, :3], radius, open_begin=is_open[0], open_end=is_open[1], blend=width)
 
 

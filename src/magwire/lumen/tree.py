@@ -28,10 +28,8 @@ SHARED = 0.01  # distance at which two centrelines stop being one, over the radi
 WIDER = 1.05  # largest radius of a branch where it leaves, over its parent's
 RUN_IN = 1.0  # length over which a branch takes on its radius, at least, over the radius
 STEEPNESS = 5.0  # that length over what the radius gains, at least
-STEEP, GENTLE = (
-    0.9,
-    0.8,
-)  # rise of a radius over the arc that is too much, and that it is lowered to
+STEEP = 0.92  # change of a radius over the arc that is too fast
+GENTLE = 0.8  # that to which it is brought
 ROUNDING = 1.6  # bend radius of a path around the corner of a junction, over the parent's radius
 MOUTH = 1.5  # how far from the entrance a branch leaves that has a wall of its own from there on
 OFF_AXIS = 0.5  # farthest from its parent's centreline that a branch starts, over the radius
@@ -256,8 +254,8 @@ def grown(
     if not widens:
         _check_width(name, float(balls[0, 3]), deepest(balls[0], others)[1])
     radius = _run_in(name, arcs, balls, others, width)
-    if widens and np.any(np.diff(radius) > STEEP * np.diff(arcs)):
-        radius = np.minimum.accumulate(radius - GENTLE * arcs) + GENTLE * arcs
+    if widens:
+        radius = tapered(radius, arcs)
     begin, end = line.tangents
     branch = Branch(
         balls[:, :3],
@@ -411,6 +409,15 @@ def missing(wide: float, gap: float, width: float) -> float:
 def run_in(lost: float, wide: float, arcs: Array) -> Array:
     """What the radius has lost at arc parameters from an end of a tube, shape (n,) [m]."""
     return np.asarray(lost * (1.0 - _ramp(arcs / max(RUN_IN * wide, STEEPNESS * lost))))
+
+
+def tapered(radius: Array, arcs: Array) -> Array:
+    """Radii at arc parameters, shape (n,) [m], lowered where they change too fast for balls."""
+    if np.all(np.abs(np.diff(radius)) <= STEEP * np.diff(arcs)):
+        return radius
+    up = np.minimum.accumulate(radius - GENTLE * arcs) + GENTLE * arcs
+    down = np.minimum.accumulate((radius + GENTLE * arcs)[::-1])[::-1] - GENTLE * arcs
+    return np.asarray(np.minimum(up, down))
 
 
 def deepest(ball: Array, others: Sequence[Trace]) -> tuple[float, float]:
