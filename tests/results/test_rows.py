@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,6 +14,7 @@ import magwire as mw
 from magwire.engine import plant as engine
 from magwire.engine.record import BLOCKS, MAY_BE_ABSENT
 from magwire.errors import ResultError
+from magwire.kernels._handle import resolved
 from magwire.results import Result, Writer, disk, writer
 from magwire.results.contract import derive, layout_of
 from magwire.results.rows import Held, Rows
@@ -51,12 +53,17 @@ def test_pieces_in_memory_are_forgotten_from_a_record_on() -> None:
 def test_a_record_is_one_call_and_one_piece_of_memory(monkeypatch: pytest.MonkeyPatch) -> None:
     calls = []
 
-    def counted(*args: object) -> None:
-        calls.append(args)
-        compiled(*args)
+    def looked_up(entry: object, *example: object) -> Callable[..., object]:
+        """What the plant calls, counted if it is the one that fills a record."""
+        code = resolved(entry, *example)
 
-    compiled = engine.survey
-    monkeypatch.setattr(engine, "survey", counted)
+        def counted(*args: object) -> object:
+            calls.append(entry)
+            return code(*args)
+
+        return counted if entry is engine.survey else code
+
+    monkeypatch.setattr(engine, "resolved", looked_up)
     wire = mw.Wire.uniform(
         length=0.1, radius=0.6e-3, youngs_modulus=3e6, shear_modulus=1e6, density=2000.0, nodes=20
     )

@@ -19,10 +19,13 @@ Array = NDArray[np.float64]
 
 PASSES = 100
 WEIGHT = 0.5  # of the neighbours' mean in a pass
+ROOM = 0.9  # of the radius of a bend, to which a branch is widened in it at most
 
 
 def without_ridges(branch: Branch, begin: float) -> Branch:
     """The branch itself, or one whose radius is smoothed where it leaves ridges.
+
+    Where it is narrow since it bends sharply it stays so, with its ridge.
 
     Parameters
     ----------
@@ -38,7 +41,11 @@ def without_ridges(branch: Branch, begin: float) -> Branch:
         arcs = arcs[(arcs > begin) & (arcs < end)]
         if len(arcs) == 0:
             break
-        branch = replace(branch, radius=_averaged(branch, arcs))
+        radius = _averaged(branch, arcs)
+        radius = np.minimum(radius, np.maximum(branch.radius, ROOM * _bends(branch)))
+        if np.array_equal(radius, branch.radius):
+            break
+        branch = replace(branch, radius=radius)
     return branch
 
 
@@ -59,11 +66,27 @@ def ridges(branch: Branch) -> Array:
     return there
 
 
-def _averaged(branch: Branch, arcs: Array) -> Array:
-    """The radius with points around some places drawn towards the line between their neighbours."""
+def _places(branch: Branch) -> Array:
+    """Arc parameters of the points of a branch, or nearly, shape (n,) [m]."""
     steps = np.linalg.norm(np.diff(branch.points, axis=0), axis=1)
     places = np.concatenate([[0.0], np.cumsum(steps)])
-    places *= branch.length / places[-1]
+    return np.asarray(places * (branch.length / places[-1]))
+
+
+def _bends(branch: Branch) -> Array:
+    """The smallest radius of the bends next to each point, shape (n,) [m]."""
+    curvature, s = branch.curve.sharpest_bends()
+    places = _places(branch)
+    after = np.clip(np.searchsorted(places, s), 1, len(places) - 1)
+    sharpest = np.full(len(places), 1e-300)
+    for off in (-2, -1, 0, 1):
+        np.maximum.at(sharpest, np.clip(after + off, 0, len(places) - 1), curvature)
+    return np.asarray(1.0 / sharpest)
+
+
+def _averaged(branch: Branch, arcs: Array) -> Array:
+    """The radius with points around some places drawn towards the line between their neighbours."""
+    places = _places(branch)
     after = np.searchsorted(places, arcs)
     near = np.zeros(len(places), dtype=np.bool_)
     for off in (-2, -1, 0, 1):
