@@ -276,7 +276,7 @@ def balls_jet(lumen, x, y, z):
 # length of a tuple is part of its type: kernels for walls of balls are compiled without triangles.
 
 
-@short
+@kernel
 def wall_value(sheets, lumen, x, y, z):
     """See ``gap_value``; ``sheets`` as of ``LumenArrays``."""
     if len(sheets) == 0:
@@ -286,7 +286,7 @@ def wall_value(sheets, lumen, x, y, z):
         return g, nan, -1, safe
 
 
-@short
+@kernel
 def wall_jets(sheets, lumen, x, y, z):
     """See ``gap_jet``; ``sheets`` as of ``LumenArrays``."""
     if len(sheets) == 0:
