@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -16,15 +15,11 @@ from magwire.kernels.hinge import material_frame
 from magwire.kernels.lanes import LANES, four, load, splat
 from magwire.kernels.magnetics import torque_gradient, torque_hessian
 from magwire.kernels.newton import copy_band, take_step
-from magwire.kernels.subspace import lumped, slowest_modes
-from magwire.kernels.subspace import mix as mix_four
+from magwire.kernels.subspace import mix, slowest_modes
 from magwire.kernels.vectors import dot, row
 from magwire.kernels.wall.eased import times
 from magwire.kernels.wall.push import press_tube
 
-SWEEPS = 60  # of inverse iteration, at most
-SHARE = 0.03  # of every direction in the first guess of a mode
-SETTLED = 1e-9  # relative change of the eigenvalue at which they end
 PROBE = 1e-5  # step along the mode for the change of the stiffness, in wire lengths
 
 
@@ -86,42 +81,6 @@ def tube_force(model, state, force, slope):
         force[i] = -pushed[i]
         for j in range(3):
             slope[i, j] = -rows[3 * i + j]
-
-
-@part
-def mix(mode, last):
-    """Give every direction a share in the guess of the slowest mode.
-
-    A guess that lies in a plane, as the mode before may, would never find a mode across it.
-    """
-    size = 0.0
-    for r in range(FIRST, last):
-        size = max(size, abs(mode[r]))
-    for r in range(FIRST, last):
-        mode[r] += SHARE * size
-
-
-@part
-def slowest_mode(band, rod, held, mode, last):
-    """Smallest eigenvalue of stiffness against lumped mass, by inverse iteration on the factor.
-
-    ``mode`` starts as a guess and ends as the eigenvector of unit mass.
-    """
-    value = 0.0
-    for _ in range(SWEEPS):
-        for r in range(FIRST, last):
-            mode[r] *= lumped(rod, held, r)
-        solve(band, mode, FIRST, last)
-        size = 0.0
-        for r in range(FIRST, last):
-            size += lumped(rod, held, r) * mode[r] * mode[r]
-        new = 1.0 / sqrt(size)
-        for r in range(FIRST, last):
-            mode[r] *= new
-        if abs(new - value) <= SETTLED * new:
-            return new
-        value = new
-    return value
 
 
 @kernel
@@ -219,7 +178,7 @@ def linearise(model, state, mouth, work, linear):
         return 0.0
     rod, held = model[0], mouth.held
     last = 4 * (state.q.shape[0] - held + 1) - 1
-    mix_four(linear.modes, last)
+    mix(linear.modes, last)
     value = slowest_modes(work.band, rod, held, linear, last)
     for r in range(last + WIDTH):
         work.step[r] = linear.modes[r, 0] if FIRST <= r < last else 0.0
@@ -232,10 +191,10 @@ def linearise(model, state, mouth, work, linear):
 
 
 @kernel
-def steadiness(model, state, mouth, work, mode):
+def steadiness(model, state, mouth, work, linear):
     """Smallest eigenvalue [rad^2/s^2] of an equilibrium in whatever field, 0 if it is not stable.
 
-    ``mode`` [rows] starts as a guess and ends as its mode.
+    Of ``linear`` only what finds the slowest modes is used: they start as a guess.
     """
     held = mouth.held
     still = Motion(0.0, work.target)
@@ -243,5 +202,5 @@ def steadiness(model, state, mouth, work, mode):
     assemble(model, state, mouth, still, work.gradient, work.band)
     if factor(work.band, FIRST, last) >= 0:
         return 0.0
-    mix(mode, last)
-    return slowest_mode(work.band, model[0], held, mode, last)
+    mix(linear.modes, last)
+    return slowest_modes(work.band, model[0], held, linear, last)

@@ -23,7 +23,7 @@ from magwire.engine.command import Drive
 from magwire.engine.plant import Plant
 from magwire.engine.status import Status
 from magwire.engine.system import System
-from magwire.kernels.linearise import steadiness
+from magwire.kernels.linearise import new_linear, steadiness
 from magwire.navigate import tuned
 from magwire.navigate.demands import Demands
 from magwire.navigate.model import across
@@ -98,7 +98,7 @@ class Direct:
         self._currents = np.array([one.unit not in ("m", "") for one in inputs])
         self._prices = prices
         self._limits = system.step_limits()
-        self._mode = np.ones(len(plant.work.step))
+        self._linear = new_linear(len(plant.work.step))
         curve = system.path.branches[0].curve
         self._least = np.array([LEAST.get(one.unit, 1.0) for one in inputs])
         self._vessel = curve.at(np.linspace(0.0, curve.length, ALONG))
@@ -261,7 +261,7 @@ class Direct:
 
     def _eigenvalue(self) -> float:
         plant = self.plant
-        return float(steadiness(plant.model, plant.state, plant.mouth, plant.work, self._mode))
+        return float(steadiness(plant.model, plant.state, plant.mouth, plant.work, self._linear))
 
     def _touches(self, radius: float) -> float:
         """Offset of the tip from which on the wall presses on it [m]."""
