@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from magwire.actuate import Magnet
+from actuate.on_an_arm import fastest, nearest
 from magwire.navigate import arm
 from magwire.scenario import load
 from magwire.scenario.schedules import replayed
@@ -31,14 +31,8 @@ def test_a_place_from_which_there_is_no_going_on_is_left_early_enough(
     result = scenario.run()
     assert result.status == "complete", result.message
     assert result.max_tip_force == 0.0
-    assert scenario.actuator is not None
-    magnet = scenario.actuator.build()
-    assert isinstance(magnet, Magnet)
-    lumen = np.column_stack([result.dataset["centreline"].values, result.dataset["lumen_radius"]])
-    near = min(float((magnet.distance(u, lumen[:, :3]) - lumen[:, 3]).min()) for u in result.inputs)
-    assert near >= 0.06
-    steps = np.diff(result.time)[:, None]
-    assert (np.abs(np.diff(result.inputs[:, :3], axis=0)) / steps).max() <= 0.1 * (1.0 + 1e-6)
+    assert nearest(scenario, result) >= 0.06
+    assert fastest(result) <= 0.1 * (1.0 + 1e-6)
     assert replayed(result).run().max_tip_force == 0.0
 
     monkeypatch.setattr(arm, "AROUND", 0)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from actuate.handed import FOLDER, needs_files
+from actuate.on_an_arm import fastest, nearest
 from magwire import Result
 from magwire.actuate import Helmholtz, Loops, Magnet, Map, Maxwell, Omnimagnet, Uniform
 from magwire.errors import InputError, ScenarioError
@@ -439,14 +440,8 @@ def test_the_half_circle_by_a_magnet_keeps_tip_and_magnet_clear() -> None:
     result = scenario.run()
     assert result.status == "complete", result.message
     assert result.max_tip_force == 0.0
-    assert scenario.actuator is not None
-    magnet = scenario.actuator.build()
-    assert isinstance(magnet, Magnet)
-    lumen = np.column_stack([result.dataset["centreline"].values, result.dataset["lumen_radius"]])
-    near = min(float((magnet.distance(u, lumen[:, :3]) - lumen[:, 3]).min()) for u in result.inputs)
-    assert near >= 0.06
-    speeds = np.abs(np.diff(result.inputs[:, :3], axis=0)) / np.diff(result.time)[:, None]
-    assert speeds.max() <= 0.1
+    assert nearest(scenario, result) >= 0.06
+    assert fastest(result) <= 0.1
     assert replayed(result).run().max_tip_force == 0.0
 
 
