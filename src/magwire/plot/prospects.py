@@ -19,6 +19,7 @@ from magwire.files import successor
 from magwire.plot import shapes, style
 
 Array = NDArray[np.float64]
+OPACITY = 0.13  # of tubes
 HEIGHT = 120.0
 """Height of the figure [mm]."""
 
@@ -60,12 +61,14 @@ def draw(
         if surface is not None:
             shapes.draw_sheet(axes, 1e3 * surface[0], surface[1])
         for points, radius in trunks if surface is None else ():
-            _draw_tube(axes, shapes.Branch(1e3 * points, 1e3 * radius))
+            tube = shapes.tube(shapes.Branch(1e3 * points, 1e3 * radius))
+            shapes.draw_wall(axes, tube, style.LUMEN_EDGE, OPACITY)
         for k, name in enumerate(parts):
             part, before = parts[name], list(parts.values())[:k]
             start = shapes.leaves(part, before)
             if surface is None:
-                _draw_tube(axes, shapes.Branch(part.points[start:], part.radius[start:]))
+                tube = shapes.tube(shapes.Branch(part.points[start:], part.radius[start:]))
+                shapes.draw_wall(axes, tube, style.LUMEN_EDGE, OPACITY)
             _draw_way(axes, name, part.points[start:], _needed(name, parts, fields)[start:], scale)
         axes.plot(*next(iter(parts.values())).points[:1].T, "s", color=style.INK, markersize=4)
         shapes.frame(axes, list(parts.values()))
@@ -106,14 +109,6 @@ def _needed(
         there[1e-3 * along > far[-1] + 1e-3 * own.radius[:end]] = np.nan
         needed[:end] = np.fmax(needed[:end], 1e3 * there)
     return needed
-
-
-def _draw_tube(axes: Any, tube: shapes.Branch) -> None:
-    x, y, z = shapes.tube(tube)
-    axes.plot_surface(
-        x, y, z, color=style.LUMEN_EDGE, alpha=0.13, linewidth=0.0, shade=False, rstride=1,
-        cstride=1, antialiased=True, rasterized=True,
-    )  # fmt: skip
 
 
 def _draw_way(axes: Any, name: str, points: Array, needed: Array, scale: ScalarMappable) -> None:

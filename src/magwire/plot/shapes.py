@@ -27,6 +27,7 @@ SIDES = 28
 """Corners of a cross-section of the lumen drawn in space."""
 VIEW = (24.0, -58.0)
 """Elevation and azimuth that a single tube is seen from [deg]."""
+OPACITY = 0.16  # of a wall in space
 SHORT = 0.2  # extent along an axis over the longest, below which ticks would run together
 SLIM = 3.0
 """Longest extent over the second longest from which a box in space leaves room for its names."""
@@ -167,20 +168,24 @@ def draw_lumen(
         return made
     parts = [part._replace(points=moving.moved(data, part.points, time)) for part in parts]
     for part in parts:
-        x, y, z = _outside(tube(part), [other for other in parts if other is not part])
-        wall = ax.plot_surface(
-            x, y, z, color=style.LUMEN_EDGE, alpha=0.16, linewidth=0.0, shade=False, zorder=1,
-            rstride=1, cstride=1, antialiased=True, rasterized=True,
-        )  # fmt: skip
-        made.append(wall)
+        around = _outside(tube(part), [other for other in parts if other is not part])
+        made.append(draw_wall(ax, around, style.LUMEN_EDGE, OPACITY))
     return made
+
+
+def draw_wall(ax: Any, wall: tuple[Array, Array, Array], colour: str, opacity: float) -> Any:
+    """Draw the wall of a ``tube`` in space."""
+    return ax.plot_surface(
+        *wall, color=colour, alpha=opacity, linewidth=0.0, shade=False, zorder=1,
+        rstride=1, cstride=1, antialiased=True, rasterized=True,
+    )  # fmt: skip
 
 
 def draw_sheet(ax: Any, points: Array, triangles: NDArray[np.int64]) -> Any:
     """Draw triangles [mm] in space; of very many, some, evenly spread."""
     some = triangles[:: max(1, len(triangles) // TRIANGLES)]
     sheet = Poly3DCollection(
-        points[some], facecolors=style.LUMEN_EDGE, alpha=0.16, linewidths=0.0, rasterized=True
+        points[some], facecolors=style.LUMEN_EDGE, alpha=OPACITY, linewidths=0.0, rasterized=True
     )
     return ax.add_collection3d(sheet)
 

@@ -18,6 +18,7 @@ from magwire.plot import shapes, style
 
 Array = NDArray[np.float64]
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#22303c")
+OPACITY = 0.22  # of tubes
 TRIANGLES = 20_000  # of a surface that are drawn
 HEIGHT = 92.0
 """Height of the figure [mm]."""
@@ -86,7 +87,8 @@ def draw_into(
         if surface is not None:
             _draw_surface(space, surface)
         for points, radius in trunks:
-            _draw_tube(space, shapes.Branch(1e3 * points, 1e3 * radius), style.LUMEN_EDGE)
+            tube = shapes.tube(shapes.Branch(1e3 * points, 1e3 * radius))
+            shapes.draw_wall(space, tube, style.LUMEN_EDGE, OPACITY)
         _draw_tubes(space, parts, tubes)
         axes = halves[1].subplots()
         for i, (name, part) in enumerate(zip(tubes, parts, strict=True)):
@@ -126,20 +128,12 @@ def _draw_surface(axes: Any, surface: Mesh) -> None:
     axes.add_collection3d(sheet)
 
 
-def _draw_tube(axes: Any, tube: shapes.Branch, colour: str) -> None:
-    x, y, z = shapes.tube(tube)
-    axes.plot_surface(
-        x, y, z, color=colour, alpha=0.22, linewidth=0.0, shade=False, rstride=1, cstride=1,
-        antialiased=True, rasterized=True,
-    )  # fmt: skip
-
-
 def _draw_tubes(axes: Any, parts: list[shapes.Branch], names: Mapping[str, Any]) -> None:
     for i, (name, part) in enumerate(zip(names, parts, strict=True)):
         colour = COLOURS[i % len(COLOURS)]
         start = shapes.leaves(part, parts[:i])
         own = shapes.Branch(part.points[start:], part.radius[start:])
-        _draw_tube(axes, own, colour)
+        shapes.draw_wall(axes, shapes.tube(own), colour, OPACITY)
         axes.plot(*own.points.T, color=colour, linewidth=0.9)
         axes.text(*own.points[-1], f" {style.plain(name)}", color=colour, fontsize=6.5)
     axes.plot(*parts[0].points[:1].T, "o", color=style.INK, markersize=3.5)
