@@ -14,7 +14,7 @@ import surfaces
 from magwire.cli import main
 from magwire.lumen.displaced import displaced
 from magwire.many.planners import Check, Task, check_at_once
-from magwire.perturbations import CHANGES, REGISTRATION, remeshed, stiffened, tried
+from magwire.planning.perturbations import CHANGES, REGISTRATION, remeshed, stiffened, tried
 from magwire.report import outlets
 from magwire.wire.section import Stiffness
 from test_planning import FORK, WIRE

@@ -13,11 +13,12 @@ import pytest
 
 import magwire as mw
 import surfaces
-from magwire import planning
 from magwire.cli import main
 from magwire.cli.errand import _wire
 from magwire.many.planners import Task, plan_at_once
-from magwire.planning import firm_wall, fitted, remedy
+from magwire.planning import outlets
+from magwire.planning.remedy import remedy
+from magwire.planning.route import Route, firm_wall, fitted
 from magwire.plot import prospects as maps
 from magwire.report.outlets import begun, save, taken_up
 from magwire.scenario import load
@@ -367,11 +368,11 @@ def test_a_course_with_a_spike_is_planned_nearer_to_the_centreline_too(
     peaks = {0.4: 0.05, 0.55: 0.06, 0.7: 0.02}
     asked: list[float] = []
 
-    def travel(nothing: mw.Prospect, course: object, demands: mw.Demands) -> mw.Prospect:
+    def travel(nothing: mw.Prospect, route: object, demands: mw.Demands) -> mw.Prospect:
         asked.append(round(demands.tip_clearance, 12))
         return replace(spiky, peak_field=peaks[asked[-1]])
 
-    monkeypatch.setattr(planning, "_travel", travel)
+    monkeypatch.setattr(outlets, "_travel", travel)
     (kept,) = mw.plan(FORK, WIRE, outlets=("aside",))
     assert asked == [0.4, 0.55, 0.7]
     assert kept.peak_field == 0.02
@@ -423,13 +424,13 @@ def test_command_says_what_is_wrong(
 def test_a_plan_at_triangles_stays_inside_of_them(monkeypatch: pytest.MonkeyPatch) -> None:
     """A stiff shaft lies on the wall; by the distance from all triangles, one after the other."""
     kept: list[mw.Result] = []
-    run = planning._Course.run
+    run = Route.run
 
-    def kept_run(course: planning._Course, distance: float, navigator: object) -> mw.Result:
-        kept.append(run(course, distance, navigator))  # type: ignore[arg-type]
+    def kept_run(route: Route, distance: float, navigator: object) -> mw.Result:
+        kept.append(run(route, distance, navigator))  # type: ignore[arg-type]
         return kept[-1]
 
-    monkeypatch.setattr(planning._Course, "run", kept_run)
+    monkeypatch.setattr(Route, "run", kept_run)
     sheet = surfaces.tube(
         surfaces.arc(25e-3, 1.2, 80), lambda _, angle: np.full(angle.shape, 2.4e-3), 20
     )

@@ -47,10 +47,10 @@ if TYPE_CHECKING:
     from magwire.navigate.tip import TipNavigator as TipNavigator
     from magwire.operate import Ending as Ending
     from magwire.operate import ForceLimit as ForceLimit
-    from magwire.perturbations import robustness as robustness
     from magwire.planning import Prospect as Prospect
     from magwire.planning import Trial as Trial
     from magwire.planning import plan as plan
+    from magwire.planning import robustness as robustness
     from magwire.results import Result as Result
     from magwire.scenario import Scenario as Scenario
     from magwire.scenario import load as load_scenario
@@ -121,7 +121,7 @@ _HOMES: dict[str, tuple[str, str]] = {
     "load_actuator": ("magwire.scenario", "load_actuator"),
     "load_scenario": ("magwire.scenario", "load"),
     "plan": ("magwire.planning", "plan"),
-    "robustness": ("magwire.perturbations", "robustness"),
+    "robustness": ("magwire.planning", "robustness"),
     "run_many": ("magwire.many", "run_many"),
     "scenario_names": ("magwire.scenario", "names"),
 }

@@ -84,22 +84,20 @@ def vessel(seed: int) -> tuple[mw.Lumen, mw.Wire]:
 
 def planned(seed: int, clearance: float) -> dict[str, Any]:
     """What a build says of a vessel in a setting, and its course; in any build."""
-    from magwire import planning
-
     kept: list[Any] = []
-    run = planning.Simulation.run
+    run = mw.Simulation.run
 
     def keep(*args: Any, **options: Any) -> Any:
         kept.append(run(*args, **options))
         return kept[-1]
 
     lumen, wire = vessel(seed)
-    planning.Simulation.run = keep  # type: ignore[method-assign]
+    mw.Simulation.run = keep  # type: ignore[method-assign]
     began = time.process_time()
     try:
-        (found,) = planning.plan(lumen, wire, demands=mw.Demands(tip_clearance=clearance))
+        (found,) = mw.plan(lumen, wire, demands=mw.Demands(tip_clearance=clearance))
     finally:
-        planning.Simulation.run = run  # type: ignore[method-assign]
+        mw.Simulation.run = run  # type: ignore[method-assign]
     return {
         "reached": bool(found.reached),
         "peak": float(found.peak_field),
@@ -113,10 +111,10 @@ def planned(seed: int, clearance: float) -> dict[str, Any]:
 def holds(seed: int, course: dict[str, Any]) -> bool:
     """Whether a course gets there on replay with inertia."""
     from magwire.navigate.schedule import last_tries
-    from magwire.planning import course_to
+    from magwire.planning.route import route_to
 
     lumen, wire = vessel(seed)
-    way = course_to(lumen, wire)
+    way = route_to(lumen, wire)
     feed, field = np.array(course["feed"]), np.array(course["field"])
     tried = last_tries(feed)
     schedule = mw.Schedule(feed[tried], field[tried])

@@ -15,7 +15,7 @@ from magwire.lumen import Lumen
 from magwire.navigate import NavigationError, Observation, Prescribed, Schedule
 from magwire.navigate.demands import Demands
 from magwire.navigate.stable import StableNavigator
-from magwire.planning import fitted
+from magwire.planning.route import fitted
 from magwire.results import Result
 from magwire.simulation import Simulation
 from magwire.wire import Wire

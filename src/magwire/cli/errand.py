@@ -16,8 +16,8 @@ from magwire.errors import InputError, one_of, positive
 from magwire.lumen import Lumen
 from magwire.lumen.names import meant
 from magwire.navigate.demands import Demands
-from magwire.perturbations import CHANGES, tried
 from magwire.planning import Prospect, Trial, plan
+from magwire.planning.perturbations import CHANGES, tried
 from magwire.units import parse
 from magwire.vessel import Source, Vessel
 from magwire.wire import Wire

@@ -13,8 +13,8 @@ import threading
 
 from magwire.errors import MagwireError
 from magwire.many.planners import Check, Task
-from magwire.perturbations import tried
 from magwire.planning import Prospect, Trial, plan
+from magwire.planning.perturbations import tried
 
 
 def serve() -> None:

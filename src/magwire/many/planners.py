@@ -28,7 +28,7 @@ class Task(NamedTuple):
 
 
 class Check(NamedTuple):
-    """What is to be tried of a way that is reached; see ``magwire.perturbations.tried``."""
+    """What is to be tried of a way that is reached; see ``mw.robustness``."""
 
     change: str
     prospect: Prospect

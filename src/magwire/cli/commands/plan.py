@@ -159,7 +159,7 @@ def _check(
 ) -> None:
     """Try the ways to outlets; say and write each when all is tried of it."""
     from magwire.cli import errand
-    from magwire.perturbations import CHANGES
+    from magwire.planning.perturbations import CHANGES
     from magwire.report import outlets
     from magwire.report.progress import pieces
 

@@ -16,7 +16,9 @@ from magwire.lumen.displaced import displaced
 from magwire.navigate.demands import Demands
 from magwire.navigate.navigator import Prescribed
 from magwire.navigate.schedule import Schedule
-from magwire.planning import Prospect, Trial, course_to, plan
+from magwire.planning.outlets import plan
+from magwire.planning.prospect import Prospect, Trial
+from magwire.planning.route import route_to
 from magwire.wire import Section, Wire
 
 EDGES = (0.75, 1.25)  # length of an edge, over what it was
@@ -190,12 +192,12 @@ def _replayed(change: str, setting: Setting, contact: Barrier | None) -> Trial:
     """Replay; at the end the wire is fed on in the last field, by a radius of the outlet."""
     lumen, wire, schedule = setting
     way = lumen.path().branches[0]
-    course = course_to(lumen, wire, contact)
-    further = float(schedule.feed[-1]) + way.length - course.goal
-    result = course.run(min(further, course.feed.largest), Prescribed(schedule))
-    arc = course.replayed.system.path.locate(result.position[:, -1])[0]
-    reached, came = bool(arc[-1] >= course.goal), float(arc.max())
-    left = f"{1e3 * (course.goal - came):.3g} mm are left"
+    route = route_to(lumen, wire, contact)
+    further = float(schedule.feed[-1]) + way.length - route.goal
+    result = route.run(min(further, route.feed.largest), Prescribed(schedule))
+    arc = route.replayed.system.path.locate(result.position[:, -1])[0]
+    reached, came = bool(arc[-1] >= route.goal), float(arc.max())
+    left = f"{1e3 * (route.goal - came):.3g} mm are left"
     return Trial(
         change=change,
         reached=reached,

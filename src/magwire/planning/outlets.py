@@ -1,0 +1,236 @@
+"""To which outlets a wire gets, what it takes to get there, and what keeps it from the others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from magwire.contact import Barrier
+from magwire.errors import InputError, instance
+from magwire.lumen import Lumen
+from magwire.navigate import tuned
+from magwire.navigate.demands import Demands
+from magwire.navigate.navigator import (
+    Course,
+    NavigationError,
+    Navigator,
+    Observation,
+    Prescribed,
+)
+from magwire.navigate.schedule import Schedule, last_tries
+from magwire.navigate.tip import TipNavigator
+from magwire.operate.steering import Persistent
+from magwire.planning.prospect import Prospect
+from magwire.planning.remedy import remedy
+from magwire.planning.route import Route, route_to
+from magwire.status import RunStatus
+from magwire.wire import Wire
+
+AT_LIMIT = 0.98  # of the largest field, from which on it is what keeps a wire back
+
+
+def plan(
+    lumen: Lumen,
+    wire: Wire,
+    *,
+    demands: Demands | None = None,
+    contact: Barrier | None = None,
+    watch: Callable[[str], None] | None = None,
+    outlets: Sequence[str] = (),
+) -> list[Prospect]:
+    """Steer a wire to every outlet of a lumen, by equilibria (P-16, P-22), and replay each course.
+
+    Programmes need a wall that gives way (``firm_wall``). What is reported is what a wire with
+    inertia does in their field, open loop, at the wall that fits it, as in every run.
+
+    Parameters
+    ----------
+    lumen
+        The lumen; one without named outlets has one, "outlet".
+    wire
+        The wire. If it is too short for the path to an outlet, its proximal section is made longer.
+    demands
+        What the field must keep to, such as its largest value.
+    contact
+        The wall's barrier, of plans and replays; if left out, one that gives way for the plans, and
+        the one that fits for the replays.
+    watch
+        Called with the name of each outlet before it is tried.
+    outlets
+        Names of the outlets to try; all of them if left out.
+
+    Returns
+    -------
+    list of Prospect
+        One for each outlet.
+
+    Raises
+    ------
+    InputError
+        If the wire has no magnetisation, or there is no lumen.
+    """
+    instance("plan", "lumen", lumen, Lumen)
+    instance("plan", "wire", wire, Wire)
+    instance("plan", "demands", demands, Demands, or_none=True)
+    instance("plan", "contact", contact, Barrier, or_none=True)
+    if not lumen.branches:
+        raise InputError("Input lumen of plan must have at least one branch; received open space.")
+    if not wire.moment_per_length > 0.0:
+        raise InputError("Input wire of plan must be magnetised; received none.")
+    found = []
+    for name in outlets or lumen.outlets or ("outlet",):
+        if watch is not None:
+            watch(name)
+        there = lumen.towards(name) if lumen.outlets else lumen
+        found.append(
+            _prospect(name, there, wire, Demands() if demands is None else demands, contact)
+        )
+    return found
+
+
+def _prospect(
+    name: str, lumen: Lumen, wire: Wire, demands: Demands, contact: Barrier | None
+) -> Prospect:
+    """What to expect on the path to the lumen's target."""
+    way = lumen.path().branches[0]
+    knots = way.curve.knots()
+    radii = way.curve.at(knots)[:, 3]
+    thin = int(np.argmin(radii))
+    none = np.zeros(0)
+    nothing = Prospect(
+        outlet=name,
+        reached=False,
+        length=way.length,
+        fed=0.0,
+        came=0.0,
+        narrowest=float(radii[thin]),
+        narrowest_at=float(knots[thin]),
+        bend=way.bend_radius(),
+        peak_field=0.0,
+        tip_force=0.0,
+        wall_force=0.0,
+        patch_force=0.0,
+        force_patch=float("nan"),
+        push_force=0.0,
+        guide_torque=0.0,
+        clearance=float("nan"),
+        reason="",
+        feed=none,
+        arc=none,
+        flux_density=none,
+        force=none,
+        field_components=np.zeros((0, 3)),
+    )
+    if nothing.narrowest <= (contact or Barrier()).keep_off(wire.radius):
+        return replace(
+            nothing,
+            reason=f"The wire is {2e3 * wire.radius:.4g} mm wide, the lumen "
+            f"{2e3 * nothing.narrowest:.4g} mm at {1e3 * nothing.narrowest_at:.4g} mm.",
+        )
+    route = route_to(lumen, wire, contact)
+    found = _travel(nothing, route, demands)
+    return _nearer(found, nothing, route, demands) if _has_spike(found) else found
+
+
+def _has_spike(found: Prospect) -> bool:
+    """Whether the field of a course is far larger in one place than elsewhere."""
+    sizes = found.flux_density[found.flux_density > 0.0]
+    return found.reached and len(sizes) > 0 and sizes.max() > tuned.OUTLET.spike * np.median(sizes)
+
+
+def _nearer(found: Prospect, nothing: Prospect, route: Route, demands: Demands) -> Prospect:
+    """The course, or one with the tip nearer to the centreline if that takes less field.
+
+    Fields are planned one feed after the other. A wire that comes to a bend with its tip at the
+    rim of its room may need far more field there than one that comes along the middle.
+    """
+    for part in tuned.OUTLET.nearer:
+        clearance = demands.tip_clearance + part * (1.0 - demands.tip_clearance)
+        other = _travel(nothing, route, replace(demands, tip_clearance=clearance))
+        if other.reached and other.peak_field < found.peak_field:
+            said = (
+                f"Planned with tip_clearance {clearance:.3g}; with {demands.tip_clearance:.3g} it "
+                f"takes {1e3 * found.peak_field:.3g} mT."
+            )
+            return replace(other, reason=" ".join(filter(None, (said, other.reason))))
+    return found
+
+
+@dataclass(frozen=True)
+class _Unasked:
+    """A navigator that is not asked where the tip should be: it would solve for it each time."""
+
+    navigator: Navigator
+
+    @property
+    def notes(self) -> Sequence[str]:
+        """What was tried again."""
+        return getattr(self.navigator, "notes", ())
+
+    def plan(self, observation: Observation, until: float) -> Course:
+        """See ``Navigator.plan``."""
+        return self.navigator.plan(observation, until)
+
+    def go_back(self, seen: Observation, failure: NavigationError) -> float:
+        """See ``Persistent.go_back``."""
+        if isinstance(self.navigator, Persistent):
+            return self.navigator.go_back(seen, failure)
+        raise failure
+
+
+def _travel(nothing: Prospect, route: Route, demands: Demands) -> Prospect:
+    """Plan ahead of a wire that moves with inertia: what it takes is what that wire says.
+
+    The plan does not hang on what the wire does, unless its tip goes astray: what is seen is the
+    course replayed open loop. Where the wire was taken back to try again, the last tries are
+    replayed from the entrance.
+    """
+    goal = route.goal
+    steering = TipNavigator(
+        demands, update_every=route.step, plan_every=route.every, attempts=tuned.OUTLET.attempts
+    )
+    navigator = _Unasked(steering.start(route.planned.system))
+    planned = route.run(route.feed.largest, navigator)
+    if len(planned.feed) == 0 or not planned.feed.max() > 0.0:
+        return replace(nothing, reason=planned.message)
+    tried, result = last_tries(planned.feed), planned
+    if len(tried) < len(planned.feed):
+        schedule = Schedule(planned.feed[tried], planned.field[tried])
+        result = route.run(float(schedule.feed[-1]), Prescribed(schedule))
+    arc = route.replayed.system.path.locate(result.position[:, -1])[0]
+    flux = np.linalg.norm(result.field, axis=1)
+    found = replace(
+        nothing,
+        reached=bool(arc[-1] >= goal),
+        fed=float(result.feed.max()),
+        came=float(arc.max()),
+        peak_field=float(flux.max()),
+        tip_force=result.max_tip_force,
+        wall_force=result.max_wall_force,
+        patch_force=result.max_patch_force,
+        force_patch=result.force_patch,
+        push_force=result.max_push_force,
+        guide_torque=result.max_guide_torque,
+        clearance=result.smallest_clearance,
+        reason=planned.message,
+        feed=result.feed,
+        arc=arc,
+        flux_density=flux,
+        force=result.wall_force,
+        field_components=np.array(result.field),
+    )
+    if found.reached:
+        return found
+    left = f"{1e3 * (goal - found.came):.4g} mm are left"
+    if planned.status != RunStatus.COMPLETE:
+        reason = planned.message
+    elif route.replayed.tip_arc(planned.position[-1]) < goal:
+        reason = f"All of the wire is inserted, and {left}. {planned.message}"
+    else:
+        reason = f"A course of the field was planned, but replayed with inertia {left}."
+    bound = found.peak_field >= AT_LIMIT * demands.max_field  # then more field would do
+    advice = "" if bound else remedy(route.replayed.system, found.came)
+    replayed = "" if result is planned else result.message
+    return replace(found, reason=" ".join(filter(None, (reason.strip(), replayed, advice))))
