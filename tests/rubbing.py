@@ -28,9 +28,9 @@ def in_balance(record: Record, load: Array, direction: Array) -> tuple[float, fl
 def energy(session: Session) -> float:
     """Of the wire, the wall and the elastic slip [J], with that of its motion."""
     plant, system = session.plant, session.plant.system
-    rod, field, wall, lumen = plant.model
     state, work = plant.state, system.new_work()
-    smooth = (rod, field, wall._replace(friction=()), lumen)
+    rod, wall = plant.model.rod, plant.model.wall
+    smooth = plant.model._replace(wall=wall._replace(friction=()))
     still = Motion(0.0, np.zeros_like(state.q))
     stored, _ = assemble(smooth, state, plant.mouth, still, work.gradient, work.no_band)
     held = int(state.held[0])

@@ -23,7 +23,7 @@ def stiffness(state: Equilibrium) -> Array:
     """Dense tangent stiffness of the free unknowns, scaled."""
     point = state.point
     system, work = point.system, point.system.new_work()
-    model = (system.rod, point.field, system.new_wall(), system.walls)
+    model = system.new_terms(point.field)
     still = Motion(0.0, work.target)
     assemble(model, point.state, point.mouth, still, work.gradient, work.band)
     rows = free_rows(state)

@@ -347,7 +347,8 @@ class Batch:
         """Memory that the first wire takes beside what wires of a simulation share [B]."""
         plant = self._plants[0]
         model = plant.model
-        own = (model[1], model[2].known, model[2].jet, model[2].between, plant.state, plant.work)
+        wall = model.wall
+        own = (model.field, wall.known, wall.jet, wall.between, plant.state, plant.work)
         return sum(part.nbytes for part in _arrays(own))
 
     def close(self) -> None:

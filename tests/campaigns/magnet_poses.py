@@ -23,7 +23,7 @@ from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.kernels.arrays import Motion
 from magwire.kernels.assembly import FIRST, assemble
-from magwire.kernels.linearise import tube_force
+from magwire.kernels.tube import tube_force
 from magwire.navigate.demands import Demands
 from magwire.navigate.navigator import Observation
 from magwire.navigate.stable import StableNavigator
@@ -67,7 +67,7 @@ class Held:
     def seen(self) -> Array:
         """Smallest eigenvalue without the tube [1/s^2], and the force of the tube [EI/L^2]."""
         force, slope = np.zeros(3), np.zeros((3, 3))
-        tube_force(self.plant.model, self.plant.state, force, slope)
+        tube_force(self.plant.model.rod, self.plant.model.tube, self.plant.state, force, slope)
         self._free.restore(self.plant.snapshot())
         return np.append(lowest(self._free), force * self._force)
 
@@ -84,7 +84,7 @@ def lowest(plant: Plant) -> float:
     last = 4 * (len(state.q) - held + 1) - 1
     still = Motion(0.0, plant.work.target)
     assemble(plant.model, state, plant.mouth, still, plant.work.gradient, plant.work.band)
-    rod, rows = plant.model[0], np.arange(FIRST, last)
+    rod, rows = plant.model.rod, np.arange(FIRST, last)
     node = held - 1 + rows // 4
     edge = np.minimum(node, len(rod.inertia) - 1)
     root = 1.0 / np.sqrt(np.where(rows % 4 == 3, rod.inertia[edge], rod.mass[node]))

@@ -26,7 +26,7 @@ def left_over(start: Equilibrium, target: Equilibrium, iterations: int) -> float
     """Residual after a few iterations from one equilibrium towards another at the same feed."""
     point, state = target.point, copy(start)
     system, work = point.system, point.system.new_work()
-    model = (system.rod, point.field, system.new_wall(), system.walls)
+    model = system.new_terms(point.field)
     limits = Limits(0.0, iterations, 1.0)
     still = Motion(0.0, work.target)
     _, _, _, residual, _ = newton(model, state, point.mouth, still, work, limits)

@@ -33,7 +33,7 @@ def swing(
     feed = np.full(steps, rest.feed / system.wire.length)
     drive = Drive(feed, np.zeros(steps), np.zeros((steps, 3)), time / steps, damping, True)
     samples = sample(system, UniformField((field[0], field[1], field[2])), state)
-    model = (system.rod, samples, system.new_wall(), system.walls)
+    model = system.new_terms(samples)
     done, _ = march(
         model,
         system.guide,

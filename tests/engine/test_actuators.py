@@ -48,9 +48,11 @@ def test_gradient_and_hessian_in_the_field_of_coils_and_a_magnet(seed: int) -> N
     table = Loops(coils=(ring, Coil("b", (1.2, 0.1, -0.8), (0.0, 1.0, 0.0), 0.5, 1e6))).arrays()
     strength = new_strength(table)
     steer((table,), rng.normal(size=2), strength)
-    rod, field, wall, lumen = plain.model
+    field = plain.model.field
     there = field._replace(sources=(table,), strength=strength)  # type: ignore[attr-defined]
-    case = Case(plain.system, (rod, there, wall, lumen), plain.state, plain.mouth, plain.motion)
+    case = Case(
+        plain.system, plain.model._replace(field=there), plain.state, plain.mouth, plain.motion
+    )
     _, gradient, hessian = derivatives(case)
     slope, raw = difference_quotients(case, 2e-4)
     assert np.abs(gradient - slope).max() < 1e-7 * np.abs(slope).max()

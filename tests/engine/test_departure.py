@@ -58,7 +58,7 @@ def on_its_cone(load: float, motion: str = "quasi-static") -> tuple[Session, flo
         lean.step(feed_speed=1e-6 / lean.time_step)
     session.restore(lean.snapshot())
     session.step()
-    friction, contact = session.plant.model[2].friction[0], session.plant.state.contact[-1]
+    friction, contact = session.plant.model.wall.friction[0], session.plant.state.contact[-1]
     slip = float(np.linalg.norm(contact[SLIP : SLIP + 3]))
     friction.static[:] = friction.kinetic[:] = 5.0 * slip / friction.slip
     contact[SLIP : SLIP + 3] *= friction.slip / slip
@@ -116,7 +116,7 @@ def test_what_is_not_stable_goes(load: float) -> None:
 def test_a_tip_inside_its_cone_stays() -> None:
     """With twice the friction at which it would leave."""
     session, _ = on_its_cone(3e-6)
-    friction = session.plant.model[2].friction[0]
+    friction = session.plant.model.wall.friction[0]
     friction.static[:] *= 2.0
     friction.kinetic[:] *= 2.0
     session.plant.state.contact[-1, SLIP : SLIP + 3] *= 0.5
@@ -131,7 +131,7 @@ def test_the_kernels_tangent_is_that_by_complex_steps(back: float) -> None:
     session.restore(here)
     assert session.stable
     plant, rubbing = session.plant, session.plant.rubbing
-    (rod, _, wall, lumen), state, work = plant.model, plant.state, plant.work
+    (rod, _, wall, lumen, _), state, work = plant.model, plant.state, plant.work
     friction, held = wall.friction[0], plant.mouth.held
     hold_walls(wall.friction, rod, lumen, wall, state, held, work)
     still = Motion(0.0, work.target)

@@ -65,7 +65,7 @@ def test_pull_of_a_magnet_against_its_energy(source: Dipole) -> None:
     assert state.stable
     point = state.point
     system, work = point.system, point.system.new_work()
-    model = (system.rod, point.field, system.new_wall(), system.walls)
+    model = system.new_terms(point.field)
     still = Motion(0.0, work.target)
     assemble(model, point.state, point.mouth, still, work.gradient, work.no_band)
     held = work.gradient[:, :3].sum(axis=0) * system.scales.force  # by the guide

@@ -107,7 +107,7 @@ def random_case(seed: int, *energies: str, held: int = 1, rough: float = 0.1) ->
     state = random_state(rng, where, held, rough)
     pull = 1.3 if "bodies" in chosen else 0.0
     motion = Motion(pull, rng.normal(size=state.q.shape))
-    model = (rod, field, where.new_wall(), where.walls)
+    model = where.new_terms(field, rod=rod)
     return Case(where, model, state, Mouth(held, float(rng.uniform(0.3, 1.0))), motion)
 
 

@@ -44,7 +44,7 @@ def chords(lumen: Lumen) -> Case:
 
     q[:, :3] = centre + brentq(nearest, 0.0, RADIUS) * inward
     state = state_at(where, q, np.random.default_rng(1).normal(size=(count - 1, 3)), 1)
-    model = (rod, random_case(0).model[1], where.new_wall(), where.walls)
+    model = where.new_terms(random_case(0).model.field, rod=rod)
     return Case(where, model, state, Mouth(1, 1.0), Motion(0.0, np.zeros_like(q)))
 
 

@@ -46,7 +46,7 @@ def test_against_differences(energy: str, held: int, seed: int) -> None:
 def test_energies_without_holonomy_have_a_symmetric_quotient(energy: str) -> None:
     case = random_case(4, energy)
     if "field" in energy:  # a moment across the axis turns with the frame, and has holonomy
-        rod = case.model[0]
+        rod = case.model.rod
         rod.moment[:, :2] = 0.0  # type: ignore[attr-defined]
     _, _, hessian = derivatives(case)
     _, raw = difference_quotients(case, STEP)
@@ -74,10 +74,10 @@ def pressed(lumen: Lumen, seed: int) -> Case:
     q = np.zeros((len(s), 4))
     q[:, :3] = centre + (0.05 - clearance)[:, None] * across
     state = state_at(where, q, rng.normal(size=(len(s) - 1, 3)), 1)
-    field = random_case(0).model[1]
+    field = random_case(0).model.field
     wall = where.new_wall()
     wall = wall._replace(between=wall.between._replace(parts=1))  # nodes alone
-    model = (rod, field, wall, where.walls)
+    model = where.new_terms(field, rod=rod, wall=wall)
     return Case(where, model, state, Mouth(1, 1.0), Motion(0.0, np.zeros_like(q)))
 
 
@@ -103,7 +103,7 @@ def test_holonomy_vanishes_at_equilibrium() -> None:
     state = free(wire).equilibrium(wire.length, flux(wire, 3.0, 70.0) + [0.0, 0.0, 2e-4])
     point = state.point
     where = point.system
-    model = (where.rod, point.field, where.new_wall(), where.walls)
+    model = where.new_terms(point.field)
     still = Motion(0.0, np.zeros_like(point.state.q))
     _, raw = difference_quotients(Case(where, model, point.state, point.mouth, still), STEP)
     free_part = raw[7:, 7:]

@@ -61,14 +61,14 @@ def pressed(foundation: float, seed: int) -> Case:
     base = random_case(seed)
     rod = where.rod._replace(stretch=0.0 * where.rod.stretch + 1e-12, mass=0.0 * where.rod.mass)
     rod = rod._replace(bend=1e-30 + 0.0 * rod.bend, twist=0.0 * rod.twist, moment=0.0 * rod.moment)
-    model = (rod, base.model[1], where.new_wall(), where.walls)
+    model = where.new_terms(base.model.field, rod=rod)
     return Case(where, model, state, Mouth(1, 1.0), base.motion._replace(factor=0.0))
 
 
 @pytest.mark.parametrize("foundation", [1e6, 1e9])
 def test_gradient_and_hessian_of_the_walls_energy(foundation: float) -> None:
     case = pressed(foundation, 5)
-    assert case.model[2].between.parts > 1  # type: ignore[attr-defined]
+    assert case.model.wall.between.parts > 1  # type: ignore[attr-defined]
     energy, gradient, hessian = derivatives(case)
     by_energy, by_gradient = difference_quotients(case, 2e-6)
     assert 0.0 < energy < np.inf

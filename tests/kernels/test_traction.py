@@ -42,7 +42,7 @@ def rubbing(seed: int, slide: float, *, drag: float = 0.0) -> Case:
     wall.friction[0].slides[:] = rng.uniform(size=len(state.q)) < 0.5
     state.q[:, :] += slide * rng.normal(size=state.q.shape)
     field = random_field(rng, len(rod.rest), uniform=True)
-    model = (rod, field, wall, where.walls)
+    model = where.new_terms(field, rod=rod, wall=wall)
     still = Motion(0.0, np.zeros_like(state.q))
     return Case(where, model, state, Mouth(HELD, 1.0), still)
 
@@ -66,7 +66,7 @@ def test_what_it_takes_is_never_negative(slide: float) -> None:
     _, _, hessian = derivatives(case)
     assert np.linalg.eigvalsh(hessian).min() > -1e-9 * np.abs(hessian).max()
     before = case.state._replace(contact=case.state.contact.copy())
-    keep(case.model[0], case.model[2].friction[0], before, case.state)
+    keep(case.model.rod, case.model.wall.friction[0], before, case.state)
     if slide < 0.01:
         assert before.spent[0] == 0.0
     else:

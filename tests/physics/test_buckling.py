@@ -67,7 +67,7 @@ def smallest_stiffness(angle: float, nodes: int) -> float:
     first, last = 1, nodes - 1  # the clamped edges
     state.q[:-1, 3] = angle * np.clip((np.arange(nodes) - first) / (last - first), 0.0, 1.0)
     field = sample(system, UniformField(), state)
-    model = (rod, field, system.new_wall(), system.walls)
+    model = system.new_terms(field, rod=rod)
     still = Motion(0.0, work.target)
     assemble(model, state, Mouth(1, 1.0), still, work.gradient, work.band)
     size = 4 * (nodes + 1) - 1

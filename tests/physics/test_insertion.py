@@ -26,7 +26,7 @@ def energy(state: Equilibrium) -> float:
     """In EI/L."""
     point = state.point
     system, work = point.system, point.system.new_work()
-    model = (system.rod, point.field, system.new_wall(), system.walls)
+    model = system.new_terms(point.field)
     still = Motion(0.0, work.target)
     return float(assemble(model, point.state, point.mouth, still, work.gradient, work.no_band)[0])
 

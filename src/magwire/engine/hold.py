@@ -77,7 +77,7 @@ class Hold:
 
 def carry(system: System, field: Field, state: State, mouth: Mouth, hold: Hold) -> Settled:
     """Carry the far end to where it is held, from where it is, and bring the rest to rest."""
-    model = (system.rod, field, system.new_wall(), system.walls)
+    model = system.new_terms(field)
     length, edge = system.wire.length, float(system.rod.rest[-1])
     start, turn = state.q[-1, :3].copy(), float(state.q[-2, 3])
     tangent = state.tangent[-1].copy()
@@ -146,7 +146,7 @@ def _newton(
         work.step[FIRST:last] = -forces
         solve(work.band, work.step, FIRST, last)
         slope = float(forces @ work.step[FIRST:last])
-        share = allowed_part(model[0], model[3], model[2], state.q, work.step, held, 0.0)
+        share = allowed_part(model.rod, model.lumen, model.wall, state.q, work.step, held, 0.0)
         slack = ROUND_OFF * (1.0 + abs(energy))
         copy_configuration(state, work.trial, held)
         for _ in range(HALVINGS):
@@ -165,7 +165,7 @@ def _newton(
 def _factorise(model: Any, state: State, mouth: Mouth, work: Work, limits: Limits) -> bool:
     """Factorise the band of the free rows, regularised as far as it takes (P-14)."""
     last, shift = free_rows(len(state.q), mouth.held, far_held=True), 0.0
-    still, rod, first = Motion(0.0, work.target), model[0], mouth.held - 1
+    still, rod, first = Motion(0.0, work.target), model.rod, mouth.held - 1
     lumped = np.column_stack([rod.mass] * 3 + [np.append(rod.inertia, 0.0)])[first:].ravel()
     for _ in range(SHIFTS):
         cut_off(work.band, last)

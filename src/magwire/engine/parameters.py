@@ -63,7 +63,7 @@ def _nearer(point: Point, thicker: Array, work: Work) -> Array:
     out is below a millionth.
     """
     system, state = point.system, point.state
-    model = (system.rod, point.field, system.new_wall(), system.walls)
+    model = system.new_terms(point.field)
     _, nearest = assemble(
         model, state, point.mouth, Motion(0.0, work.target), work.gradient, work.no_band
     )

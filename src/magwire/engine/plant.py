@@ -126,7 +126,7 @@ class Plant:
         self.state = system.new_state()
         self.state.guide[:] = feed / system.wire.length, twist
         self.work = system.new_work()
-        self._wall = system.new_wall(tube)
+        self._wall = system.new_wall()
         self._tally = Tally(np.zeros(4), np.array([0.0, 0.0, -1.0]))
         place_held(system.rod, system.guide, self.state, 0, system.wire.nodes, *self.state.guide)
         self.field = sample(system, self.source, self.state)
@@ -136,7 +136,8 @@ class Plant:
             rubbing = rubbing._replace(path=rubbing.path._replace(moving=moving))
             self._wall = self._wall._replace(friction=(rubbing,))
         lumen = system.walls._replace(moving=moving)
-        self.model = (system.rod, self.field, self._wall, lumen)
+        terms = system.new_terms(self.field, wall=self._wall, tube=tube)
+        self.model = terms._replace(lumen=lumen)
         limits, path = system.step_limits(), system.path_arrays._replace(moving=moving)
         self._tolerance = limits.tolerance
         self._kind = row_type(system.wire.nodes, len(self.inputs), system.absent)

@@ -70,8 +70,7 @@ class Point:
     ) -> tuple[float, Array]:
         """Energy and its gradient, scaled."""
         system = self.system
-        around = system.new_wall() if wall is None else wall
-        model = (rod or system.rod, field or self.field, around, system.walls)
+        model = system.new_terms(field or self.field, rod=rod, wall=wall)
         still = Motion(0.0, work.target)
         where = mouth or self.mouth
         energy, _ = assemble(model, self.state, where, still, work.gradient, work.no_band)
@@ -80,7 +79,7 @@ class Point:
     def stiffness(self, work: Work) -> Array:
         """Tangent stiffness, scaled, in the layout of ``work.band``."""
         system = self.system
-        model = (system.rod, self.field, system.new_wall(), system.walls)
+        model = system.new_terms(self.field)
         still = Motion(0.0, work.target)
         assemble(model, self.state, self.mouth, still, work.gradient, work.band)
         if self.unsampled is not None:

@@ -109,7 +109,7 @@ class Rubbing:
 
     def _assembled(self, wall: Wall, work: Any) -> tuple[Array, Array]:
         point = self.point
-        model = (point.system.rod, point.field, wall, point.system.walls)
+        model = point.system.new_terms(point.field, wall=wall)
         still = Motion(0.0, work.target)
         assemble(model, point.state, point.mouth, still, work.gradient, work.band)
         return work.gradient.copy(), work.band.copy()

@@ -26,7 +26,20 @@ from magwire.engine.wall import (
 )
 from magwire.errors import InputError, array, instance, nonnegative, one_of
 from magwire.field import FieldSource, UniformField, as_field
-from magwire.kernels.arrays import JET, Bed, BulgeGrid, Bulges, Guide, Rod, State, Tube, Wall, Work
+from magwire.kernels.arrays import (
+    JET,
+    Bed,
+    BulgeGrid,
+    Bulges,
+    Field,
+    Guide,
+    Rod,
+    State,
+    Terms,
+    Tube,
+    Wall,
+    Work,
+)
 from magwire.kernels.arrays import Friction as FrictionArrays
 from magwire.kernels.band import WIDTH
 from magwire.kernels.centreline import LumenArrays, Moving
@@ -364,8 +377,28 @@ class System:
             return in_units(grid, self.wire.length)
         return by_place(self._bulges, edge, self.wire.length)
 
-    def new_wall(self, tube: Tube | None = None) -> Wall:
-        """The barrier, with nothing known yet of the gap near any point; with a virtual tube."""
+    def new_terms(
+        self,
+        field: Field,
+        *,
+        rod: Rod | None = None,
+        wall: Wall | None = None,
+        tube: Tube | None = None,
+    ) -> Terms:
+        """What the wire's energy is made of in a field, with rod and wall as they are unless given.
+
+        A virtual tube is the navigator's that adds it.
+        """
+        return Terms(
+            rod=self.rod if rod is None else rod,
+            field=field,
+            wall=self.new_wall() if wall is None else wall,
+            lumen=self.walls,
+            tube=self._no_tube if tube is None else tube,
+        )
+
+    def new_wall(self) -> Wall:
+        """The barrier, with nothing known yet of the gap near any point."""
         length, stiffness = self.wire.length, self.wire.bending_stiffness
         unit = stiffness / length**4  # of a barrier's stiffness
         edge = float(self.mesh.edge_length.max())
@@ -377,8 +410,6 @@ class System:
         elif self.walls.sheet:
             between = between._replace(bulges=NOWHERE)
         share = between.parts if bed else 1  # of its cell's wall that a node stands for
-        balls = self.walls._replace(sheet=())
-        none = Tube(0.0, 0.0, 0.0, balls, np.full((1, 4), -np.inf), np.zeros((1, JET)))
         return Wall(
             stiffness=self.firmness.stiffness / share / unit,
             gap=self.firmness.activation_gap / length,
@@ -386,7 +417,6 @@ class System:
             jet=np.zeros((self.wire.nodes + 1, JET)),
             easy=np.zeros(1),
             between=between._replace(stiffness=between.stiffness / unit),
-            tube=none if tube is None else tube,
             friction=self._new_friction(),
             bed=bed,
         )
@@ -474,6 +504,11 @@ class System:
     def still(self) -> System:
         """The same with the wall at rest."""
         return replace(self, wall_motion=()) if self.wall_motion else self
+
+    @cached_property
+    def _no_tube(self) -> Tube:
+        balls = self.walls._replace(sheet=())
+        return Tube(0.0, 0.0, 0.0, balls, np.full((1, 4), -np.inf), np.zeros((1, JET)))
 
     def new_tube(self, path: Lumen, radius: float) -> Tube:
         """The virtual tube of a radius [m] around the centreline of a path (P-19).

@@ -62,7 +62,7 @@ def settle(system: System, source: FieldSource, state: State, mouth: Mouth, work
     for _ in range(STEPS):
         copy_configuration(state, base, held)
         work.target[:] = state.q
-        model = (system.rod, samples, wall, system.walls)
+        model = system.new_terms(samples, wall=wall)
         status, taken, _, residual, _ = newton(
             model, state, mouth, Motion(pull, work.target), work, short
         )

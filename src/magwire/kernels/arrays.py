@@ -73,21 +73,6 @@ class Field(NamedTuple):
     strength: Array
 
 
-class Tube(NamedTuple):
-    """The virtual tube around the centreline, which only the tip feels (P-19).
-
-    path: a tube around the centreline; offset: its radius less the virtual tube's; known [1, 4],
-    jet [1, JET] as in ``Wall``. A stiffness of zero: there is none.
-    """
-
-    stiffness: float
-    gap: float
-    offset: float
-    path: LumenArrays
-    known: Array
-    jet: Array
-
-
 class Bulges(NamedTuple):
     """How sharply the wall bulges inward along each branch; see ``lumen.bulge``.
 
@@ -199,9 +184,36 @@ class Wall(NamedTuple):
     jet: Array
     easy: Array
     between: Between
-    tube: Tube
     friction: tuple[()] | tuple[Friction]
     bed: tuple[()] | tuple[Bed] = ()
+
+
+class Tube(NamedTuple):
+    """The virtual tube around the centreline, which only the tip feels; see ``kernels.tube``.
+
+    path: a tube around the centreline; offset: its radius less the virtual tube's; known [1, 4],
+    jet [1, JET] as in ``Wall``. A stiffness of zero: there is none.
+    """
+
+    stiffness: float
+    gap: float
+    offset: float
+    path: LumenArrays
+    known: Array
+    jet: Array
+
+
+class Terms(NamedTuple):
+    """What the energy of a wire is made of; kernels take it as their ``model``.
+
+    lumen: where the wall is. tube: what a navigator adds; without one its stiffness is zero.
+    """
+
+    rod: Rod
+    field: Field
+    wall: Wall
+    lumen: LumenArrays
+    tube: Tube
 
 
 class State(NamedTuple):

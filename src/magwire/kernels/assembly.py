@@ -37,6 +37,7 @@ from magwire.kernels.magnetics import (
 from magwire.kernels.scatter import add_block, add_column, add_diagonal, add_row, add_vector
 from magwire.kernels.sources.steer import field_of
 from magwire.kernels.stretching import stretching, stretching_hessian
+from magwire.kernels.tube import add_tube
 from magwire.kernels.twisting import twisting_gradient, twisting_hessian
 from magwire.kernels.vectors import add, combine, dot, row, scale, sub
 from magwire.kernels.wall.contact import add_walls
@@ -284,7 +285,7 @@ def assemble(model, state, mouth, motion, gradient, band):
 
     A band without rows says that no Hessian is wanted; so in every function of this file.
     """
-    rod, field, wall, lumen = model
+    rod, field, wall, lumen, tube = model
     held = mouth.held
     nodes = state.q.shape[0]
     clear_rows(gradient, held - 1, nodes)
@@ -294,7 +295,11 @@ def assemble(model, state, mouth, motion, gradient, band):
     if contact == inf:
         return inf, nearest
     note_pushes(wall.friction, gradient, held)
-    energy = contact + add_elements(rod, field, state, mouth, gradient, band)
+    confined, near = add_tube(rod, tube, state, held, gradient, band)
+    if confined == inf:
+        return inf, near
+    nearest = min(nearest, near)
+    energy = contact + confined + add_elements(rod, field, state, mouth, gradient, band)
     if not field.uniform[0]:
         energy += add_magnets(rod, field, state, held, gradient, band)
     energy += add_bodies(rod, state, motion, held, gradient, band)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from magwire.kernels._handle import Handle, parts_of
 from magwire.kernels._jit import entry, kernel
-from magwire.kernels.arrays import Array, Field, Guide, Motion, Mouth, Rod, State, Wall, Work
+from magwire.kernels.arrays import Array, Guide, Motion, Mouth, State, Terms, Work
 from magwire.kernels.centreline import LumenArrays
 from magwire.kernels.glance import glance
 from magwire.kernels.guide import find_mouth, place_held
@@ -34,11 +34,11 @@ class Queue(NamedTuple):
 class Parts(NamedTuple):
     """What a moving wire is made of.
 
-    model: what its energy needs; path: the way to the target, as a single tube; queue: what is to
-    be done; sheet: where what a record holds is written.
+    model: what its energy is made of; path: the way to the target, as a single tube; queue: what is
+    to be done; sheet: where what a record holds is written.
     """
 
-    model: tuple[Rod, Field, Wall, LumenArrays]
+    model: Terms
     path: LumenArrays
     guide: Guide
     state: State
@@ -73,14 +73,14 @@ def place_wall(body):
     """Put the wall where it is at the state's time, if it moves."""
     p = parts_of(body)
     time = p.state.clock[0]
-    move_wall(p.model[3].moving, p.model[2], time, time)
+    move_wall(p.model.lumen.moving, p.model.wall, time, time)
 
 
 @entry
 def rest(body, limits):
     """Newton's method to the equilibrium nearby; see ``newton``."""
     p = parts_of(body)
-    mouth = mouth_of(p.model[0], p.guide, p.state)
+    mouth = mouth_of(p.model.rod, p.guide, p.state)
     return newton(p.model, p.state, mouth, Motion(0.0, p.work.target), p.work, limits)
 
 
@@ -88,7 +88,7 @@ def rest(body, limits):
 def linearised(body, linear):
     """Linearise the equilibrium about its uniform field; see ``linearise``."""
     p = parts_of(body)
-    mouth = mouth_of(p.model[0], p.guide, p.state)
+    mouth = mouth_of(p.model.rod, p.guide, p.state)
     return linearise(p.model, p.state, mouth, p.work, linear)
 
 
@@ -96,12 +96,12 @@ def linearised(body, linear):
 def survey(body, length, force):
     """Put what the guide holds in its place and fill the sheet; see ``observe``."""
     p = parts_of(body)
-    mouth = mouth_of(p.model[0], p.guide, p.state)
+    mouth = mouth_of(p.model.rod, p.guide, p.state)
     scales = (length, force)
     read_friction(
-        p.model[2].friction, p.model[0], p.state, mouth.held, p.sheet.friction_force, force
+        p.model.wall.friction, p.model.rod, p.state, mouth.held, p.sheet.friction_force, force
     )
-    place_held(p.model[0], p.guide, p.state, 0, mouth.held, p.state.guide[0], p.state.guide[1])
+    place_held(p.model.rod, p.guide, p.state, 0, mouth.held, p.state.guide[0], p.state.guide[1])
     observe(p.model, p.path, p.guide, p.state, mouth, p.work, p.sheet, scales)
     read_tally(p.tally, p.sheet, scales)
 

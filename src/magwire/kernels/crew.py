@@ -80,7 +80,7 @@ def branch_at(sheets, lumen, x, known, jet):
 @kernel
 def see(parts, work, patch, turn, seen):
     """Fill ``seen`` [SEEN] with what is seen of a wire, scaled."""
-    _, _, wall, lumen = parts.model
+    wall, lumen = parts.model.wall, parts.model.lumen
     glance(parts.model, parts.state, work, patch, turn, seen)
     last = parts.state.q.shape[0] - 1
     tip = row(parts.state.q, last)

@@ -89,7 +89,7 @@ def least_clearance(rod, lumen, wall, state, held):
 @short
 def glance(model, state, work, patch, turn, seen):
     """Fill ``seen`` [GLANCE], scaled; patch: length over which the largest force is looked for."""
-    rod, _, wall, lumen = model
+    rod, wall, lumen = model.rod, model.wall, model.lumen
     held = state.held[0]
     last = state.q.shape[0] - 1
     tip, along = row(state.q, last), tip_direction(state, turn)

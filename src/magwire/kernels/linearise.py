@@ -18,7 +18,6 @@ from magwire.kernels.newton import copy_band, take_step
 from magwire.kernels.subspace import mix, slowest_modes
 from magwire.kernels.vectors import dot, row
 from magwire.kernels.wall.eased import times
-from magwire.kernels.wall.push import press_tube
 
 PROBE = 1e-5  # step along the mode for the change of the stiffness, in wire lengths
 
@@ -69,21 +68,6 @@ def load_of_field(rod, state, held, axis, rows):
 
 
 @kernel
-def tube_force(model, state, force, slope):
-    """Force of the virtual tube on the tip (P-19).
-
-    Fills ``force`` [3] and its derivative by the tip's position, ``slope`` [3, 3].
-    """
-    rod, _, wall, _ = model
-    _, _, pushed, h = press_tube(rod, wall.tube, row(state.q, state.q.shape[0] - 1))
-    rows = (h[0], h[1], h[2], h[1], h[3], h[4], h[2], h[4], h[5])
-    for i in range(3):
-        force[i] = -pushed[i]
-        for j in range(3):
-            slope[i, j] = -rows[3 * i + j]
-
-
-@kernel
 def respond(model, state, mouth, work, linear):
     """Change of the unknowns by each field component, into ``linear.moves`` (P-21).
 
@@ -97,7 +81,7 @@ def respond(model, state, mouth, work, linear):
     if factor(work.band, FIRST, last) >= 0:
         return False
     for axis in range(3):
-        load_of_field(model[0], state, held, axis, linear.moves[axis])
+        load_of_field(model.rod, state, held, axis, linear.moves[axis])
         solve(work.band, linear.moves[axis], FIRST, last)
     return True
 
@@ -176,7 +160,7 @@ def linearise(model, state, mouth, work, linear):
     """
     if not respond(model, state, mouth, work, linear):
         return 0.0
-    rod, held = model[0], mouth.held
+    rod, held = model.rod, mouth.held
     last = 4 * (state.q.shape[0] - held + 1) - 1
     mix(linear.modes, last)
     value = slowest_modes(work.band, rod, held, linear, last)
@@ -203,4 +187,4 @@ def steadiness(model, state, mouth, work, linear):
     if factor(work.band, FIRST, last) >= 0:
         return 0.0
     mix(linear.modes, last)
-    return slowest_modes(work.band, model[0], held, linear, last)
+    return slowest_modes(work.band, model.rod, held, linear, last)

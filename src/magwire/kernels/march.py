@@ -22,6 +22,7 @@ from magwire.kernels.newton import (
 )
 from magwire.kernels.scatter import add_vector
 from magwire.kernels.sources.steer import steer
+from magwire.kernels.tube import within_tube
 from magwire.kernels.vectors import dot, row
 from magwire.kernels.wall.between import add_between, press_edge
 from magwire.kernels.wall.collision import allowed_part
@@ -68,7 +69,7 @@ class Tally(NamedTuple):
 @part
 def tip_force(model, state, held, work):
     """Size of the wall force on the tip node (P-13)."""
-    rod, _, wall, lumen = model
+    rod, wall, lumen = model.rod, model.wall, model.lumen
     tip = state.q.shape[0] - 1
     clear_rows(work.gradient, tip - 1, tip + 1)
     _, _, pushed, _ = press(rod, lumen, wall, row(state.q, tip), tip)
@@ -80,11 +81,12 @@ def tip_force(model, state, held, work):
 
 
 @part
-def predict(rod, lumen, wall, state, before, held, dt, work, slides, inertia):
+def predict(model, state, before, held, dt, work, slides, inertia):
     """Move the free unknowns on at their velocities, as far as no point comes into the wall.
 
     ``state`` begins as ``before``, or where a wall that moves has carried it.
     """
+    rod, _, wall, lumen, tube = model
     for i in range(held, state.q.shape[0]):
         store(work.step, 4 * (i - held + 1), 0, dt * load(before.velocity, i, 0))
     for r in range(FIRST):
@@ -92,11 +94,13 @@ def predict(rod, lumen, wall, state, before, held, dt, work, slides, inertia):
     if inertia:
         less_carried(lumen.moving, before, state, held, work.step)
     share = allowed_part(rod, lumen, wall, state.q, work.step, held, 0.0)
+    share = within_tube(tube, state.q, work.step, held, share)
     if slides and share < 1.0:
         slide(rod, lumen, wall, state.q, work.step, held, 1.0, work.way)
         take_step(state, work.trial, held, 1.0, work.way)
         energy, _ = add_walls(rod, lumen, wall, work.trial, held, work.gradient, work.no_band)
         way = allowed_part(rod, lumen, wall, state.q, work.way, held, wall.gap)
+        way = within_tube(tube, state.q, work.way, held, way)
         if energy < inf and way == 1.0:
             copy_configuration(work.trial, state, held)
             return
@@ -133,7 +137,7 @@ def time_step(model, guide, state, work, limits, slides, start, end, dt, drive):
     slides: whether the wire's way follows the wall where it meets it.
     ``state`` changes only in what is held; returns how Newton ended.
     """
-    rod, _, wall, lumen = model
+    rod, wall, lumen = model.rod, model.wall, model.lumen
     nodes = state.q.shape[0]
     held, fraction = find_mouth(rod, guide, end[0])
     moves = (start[0], start[1], (end[0] - start[0]) / dt, (end[1] - start[1]) / dt)
@@ -149,7 +153,7 @@ def time_step(model, guide, state, work, limits, slides, start, end, dt, drive):
     for i in range(held, nodes):
         store(work.target, i, 0, load(state.q, i, 0) + onwards * load(state.velocity, i, 0))
     carry(lumen.moving, work.ahead, held)
-    predict(rod, lumen, wall, work.ahead, state, held, dt, work, slides, drive.inertia)
+    predict(model, work.ahead, state, held, dt, work, slides, drive.inertia)
     place_held(rod, guide, work.ahead, held - 1, held, end[0], end[1])
     update_frames(state, work.ahead, held)
     motion = Motion(drag / (dt * dt) if drive.inertia else 0.0, work.target)
@@ -185,7 +189,7 @@ def solve_step(frictions, model, state, mouth, motion, work, limits, dt):
     if len(frictions) == 0:
         return newton(model, work.ahead, mouth, motion, work, limits)
     else:
-        rod, _, wall, lumen = model
+        rod, wall, lumen = model.rod, model.wall, model.lumen
         begin(
             rod, lumen, wall, state, carried_state(lumen.moving, state, work), mouth.held, dt, work
         )
@@ -195,7 +199,7 @@ def solve_step(frictions, model, state, mouth, motion, work, limits, dt):
 @kernel
 def rub(model, state, mouth, motion, work, limits):
     """Newton's method with friction: again until the normal forces are those of the step's end."""
-    wall = model[2]
+    wall = model.wall
     iterations, factorisations = 0, 0
     for k in range(LOADINGS):
         outcome = newton(model, work.ahead, mouth, motion, work, limits)
@@ -215,7 +219,7 @@ def accept(model, state, work, dt, end, clock):
 
     clock: the time at its end.
     """
-    rod, _, wall, lumen = model
+    rod, wall, lumen = model.rod, model.wall, model.lumen
     held = state.held[0]
     begun = carried_state(lumen.moving, state, work)
     count_half(lumen.moving, model, state, begun, work)
@@ -266,14 +270,14 @@ def march(model, guide, state, work, limits, drive, tally):
     Returns the steps done and how the last one ended: plain numbers, since an interrupt that
     arrives here would break the making of any other object.
     """
-    field = model[1]
+    field = model.field
     steer(field.sources, state.inputs, field.strength)
     for k in range(drive.feed.shape[0]):
         entry = state.held[0]
         first = state.guide[0], state.guide[1]
         last = drive.feed[k], drive.twist[k]
         clock = state.clock[0]
-        begun = cuts_by_feed(model[0], last[0] - first[0])
+        begun = cuts_by_feed(model.rod, last[0] - first[0])
         halvings = begun
         slides = False
         done = 0.0
@@ -283,7 +287,7 @@ def march(model, guide, state, work, limits, drive, tally):
             end = blend(first, last, done + share)
             dt = share * drive.time_step
             then = clock + (done + share) * drive.time_step
-            move_wall(model[3].moving, model[2], state.clock[0], then)
+            move_wall(model.lumen.moving, model.wall, state.clock[0], then)
             if differ(state.inputs, drive.inputs[k]):
                 for c in range(state.inputs.shape[0]):
                     rest = 1.0 - (done + share)
@@ -302,7 +306,7 @@ def march(model, guide, state, work, limits, drive, tally):
                     copy_state(work.before, state)
                     state.held[0] = entry
                     steer(field.sources, state.inputs, field.strength)
-                    move_wall(model[3].moving, model[2], clock, clock)
+                    move_wall(model.lumen.moving, model.wall, clock, clock)
                     return k, status
                 if slides or halvings < begun + COARSE:
                     halvings += 1

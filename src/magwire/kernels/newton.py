@@ -12,6 +12,7 @@ from magwire.kernels.frames import update_frames
 from magwire.kernels.groups import larger, largest_of, total
 from magwire.kernels.history import copy_configuration
 from magwire.kernels.lanes import load, splat, store
+from magwire.kernels.tube import within_tube
 from magwire.kernels.vectors import combine, dot, norm, row, sub
 from magwire.kernels.wall.collision import allowed_between, allowed_part
 from magwire.kernels.wall.eased import EASED
@@ -123,7 +124,7 @@ def find_step(model, state, mouth, motion, work, limits, level, usual):
         elif count > 0:
             copy_band(work.kept, work.band, last + 1)
         if level > 0:
-            add_shift(model[0], work.band, held, limits.shift * SHIFT_GROWTH ** (level - 1))
+            add_shift(model.rod, work.band, held, limits.shift * SHIFT_GROWTH ** (level - 1))
         count += 1
         if factor(work.band, FIRST, last) < 0:
             if level == short_of + 1:
@@ -206,7 +207,7 @@ def search(model, a, b, mouth, motion, work, limits, aim):
     that is tried is wanted. Returns the part of the step that was taken, zero if there was none,
     energy and smallest clearance of b, and whether its Hessian is in the band.
     """
-    rod, _, wall, lumen = model
+    rod, _, wall, lumen, tube = model
     held = mouth.held
     energy, slope, slack, ahead = aim
     lower, nearest = inf, inf
@@ -215,6 +216,7 @@ def search(model, a, b, mouth, motion, work, limits, aim):
         leeway = wall.gap
     else:
         share = allowed_part(rod, lumen, wall, a.q, work.step, held, 0.0)
+        share = within_tube(tube, a.q, work.step, held, share)
         leeway = 0.0
     far = limits.step == 0.0  # from the end, where a step that is halved leads nowhere
     blind = not (limits.slide or far or limits.halve)  # to points between the nodes
@@ -229,8 +231,10 @@ def search(model, a, b, mouth, motion, work, limits, aim):
                 turn_step(a, held, share, work.step, work.way)
             elif limits.slide:
                 slide(rod, lumen, wall, a.q, work.step, held, share, work.way)
-            if bent and allowed_part(rod, lumen, wall, a.q, work.way, held, leeway) < 1.0:
-                continue
+            if bent:
+                free = allowed_part(rod, lumen, wall, a.q, work.way, held, leeway)
+                if within_tube(tube, a.q, work.way, held, free) < 1.0:
+                    continue
             take_step(a, b, held, 1.0 if bent else share, work.way if bent else work.step)
             band = work.band if ahead else work.no_band
             lower, nearest = assemble(model, b, mouth, motion, work.gradient, band)
@@ -297,7 +301,7 @@ def newton(model, state, mouth, motion, work, limits):
     energy, nearest, size = 0.0, inf, inf
     status = CONVERGED
     known = False  # whether gradient and band are those of a
-    easy = model[2].easy
+    easy = model.wall.easy
     while status == CONVERGED and not size <= limits.tolerance:
         if iteration > 0 and iteration == limits.iterations:
             status = TOO_MANY_ITERATIONS
@@ -336,9 +340,11 @@ def newton(model, state, mouth, motion, work, limits):
         if share == 1.0 and size < inf and long < small:
             now = energy, nearest, size
             tolerance = limits.tolerance
-            now = refine(model[2].friction, model, a, b, mouth, motion, work, tolerance, long, now)
+            now = refine(
+                model.wall.friction, model, a, b, mouth, motion, work, tolerance, long, now
+            )
             energy, nearest, size = now
-            if len(model[2].friction) == 0:
+            if len(model.wall.friction) == 0:
                 break
     easy[0] = 0.0
     copy_configuration(a, state, held)

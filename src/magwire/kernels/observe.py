@@ -205,7 +205,7 @@ def read_contact(model, state, held, work, sheet, scales):
     between
         Smallest clearance of all points of the edges, looked for in steps of ``FINEST``.
     """
-    rod, _, wall, lumen = model
+    rod, wall, lumen = model.rod, model.wall, model.lumen
     nodes = state.q.shape[0]
     length, force = scales
     clear_rows(work.gradient, 0, nodes)
@@ -299,7 +299,7 @@ def stiff(model, state, mouth, work):
     nodes, held = state.q.shape[0], mouth.held
     if held == nodes - 1:
         return True
-    rod, _, wall, lumen = model
+    rod, wall, lumen = model.rod, model.wall, model.lumen
     hold_walls(wall.friction, rod, lumen, wall, state, held, work)
     assemble(model, state, mouth, Motion(0.0, work.target), work.gradient, work.band)
     last = 4 * (nodes - held + 1) - 1
@@ -319,7 +319,7 @@ def observe(model, path, guide, state, mouth, work, sheet, scales):
     scales
         Of length and force.
     """
-    rod, field, wall, lumen = model
+    rod, field, lumen = model.rod, model.field, model.lumen
     length, force = scales
     numbers, nodes, held = sheet.numbers, state.q.shape[0], mouth.held
     middle, between = read_contact(model, state, held, work, sheet, scales)

@@ -17,7 +17,8 @@ from magwire.engine.system import System
 from magwire.errors import InputError, one_of
 from magwire.kernels.body import linearised
 from magwire.kernels.history import copy_state
-from magwire.kernels.linearise import new_linear, respond, tube_force
+from magwire.kernels.linearise import new_linear, respond
+from magwire.kernels.tube import tube_force
 from magwire.kernels.wall.gap import gap_value
 from magwire.lumen import Lumen
 from magwire.navigate.schedule import Schedule
@@ -244,7 +245,7 @@ class Model:
 
     def _let_go(self) -> Plant:
         """The plant, with no friction in its tangent until the next step reads it off anew."""
-        for friction in self._plant.model[2].friction:
+        for friction in self._plant.model.wall.friction:
             friction.load[:, 3] = 0.0
         return self._plant
 
@@ -315,7 +316,8 @@ class Model:
     def _tube_force(self) -> tuple[Array, Array]:
         """Force of the virtual tube, and its derivative by the tip's scaled position [N]."""
         force, slope = np.zeros(3), np.zeros((3, 3))
-        tube_force(self._plant.model, self._plant.state, force, slope)
+        model = self._plant.model
+        tube_force(model.rod, model.tube, self._plant.state, force, slope)
         unit = self.system.scales.force
         return force * unit, slope * unit
 

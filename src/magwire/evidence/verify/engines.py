@@ -116,7 +116,7 @@ def settle(wire: Wire, flux: Array, step: float, duration: float) -> tuple[Array
     system, rest = sim.system, sim.equilibrium(wire.length)
     state = rest.point.state
     source = UniformField((float(flux[0]), float(flux[1]), float(flux[2])))
-    model = (system.rod, sample(system, source, state), system.new_wall(), system.walls)
+    model = system.new_terms(sample(system, source, state))
     steps = round(duration / step)
     limits, work = system.step_limits(), system.new_work()
     tally = Tally(np.zeros(4), np.zeros(3))

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from magwire.kernels.arrays import Field, Motion, Mouth, State
+from magwire.kernels.arrays import Field, Motion, Mouth, Rod, State
 from magwire.kernels.assembly import assemble
 from magwire.lumen import Lumen
 from magwire.simulation import Simulation
@@ -61,11 +61,11 @@ def reversed_differences() -> tuple[float, float]:
 
 
 def _derivatives(
-    sim: Simulation, rod: object, field: Field, state: State, target: Array
+    sim: Simulation, rod: Rod, field: Field, state: State, target: Array
 ) -> tuple[float, Array]:
     """Energy and forces of the whole wire, ghost node and all."""
     system, work = sim.system, sim.system.new_work()
-    model = (rod, field, system.new_wall(), system.walls)
+    model = system.new_terms(field, rod=rod)
     still = Motion(0.0, target)
     energy, _ = assemble(model, state, Mouth(1, 1.0), still, work.gradient, work.no_band)
     return float(energy), work.gradient[:, :3].copy()

@@ -195,7 +195,7 @@ class Rig:
         raise RuntimeError(f"No equilibrium in {ITERATIONS} iterations; last step {size:.1e}.")
 
     def _assemble(self, band: Array) -> tuple[float, int]:
-        model = (self.rod, self._field, self.system.new_wall(), self.system.walls)
+        model = self.system.new_terms(self._field, rod=self.rod)
         still = Motion(0.0, self._work.target)
         result: tuple[float, int] = assemble(
             model, self.state, Mouth(1, 1.0), still, self._work.gradient, band

@@ -55,7 +55,7 @@ def let_go(start: Equilibrium, source: FieldSource, time_step: float, steps: int
     copy_state(start.point.state, state)
     feed = start.feed / system.wire.length
     point = Point(system, sample(system, source, state), state, mouth)
-    model = (system.rod, point.field, system.new_wall(), system.walls)
+    model = system.new_terms(point.field)
     drive = Drive(
         np.array([feed]), np.array([start.twist]), np.zeros((1, 3)), time_step, system.damping, True
     )

@@ -25,7 +25,7 @@ def natural_frequencies(state: Equilibrium, count: int) -> tuple[Array, Array]:
     """
     point = state.point
     system, work, held = point.system, point.system.new_work(), point.mouth.held
-    model = (system.rod, point.field, system.new_wall(), system.walls)
+    model = system.new_terms(point.field)
     assemble(model, point.state, point.mouth, Motion(0.0, work.target), work.gradient, work.band)
     nodes = system.wire.nodes
     size = 4 * (nodes + 1 - held) - 4

@@ -104,7 +104,7 @@ def guide_load(state: Equilibrium) -> tuple[Array, Array]:
     """Force of the guide on the wire [EI/L^2], and its torque about the origin [EI/L]."""
     point = state.point
     system, work = point.system, point.system.new_work()
-    model = (system.rod, point.field, system.new_wall(), system.walls)
+    model = system.new_terms(point.field)
     still = Motion(0.0, work.target)
     assemble(model, point.state, point.mouth, still, work.gradient, work.no_band)
     first = point.mouth.held - 1  # the guide holds an edge: two nodes, one angle

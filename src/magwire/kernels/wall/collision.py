@@ -140,12 +140,4 @@ def allowed_part(rod, lumen, wall, q, step, held, leeway):
             offset, far = rod.offset[i] - leeway, fast * share / CAUTION
             if not clear_of_wall(x, wall.known[i], fast, far * norm(move) + offset):
                 share = travel(lumen, x, move, offset, wall.known[i], wall.jet[i], share)
-    tube = wall.tube
-    if tube.stiffness > 0.0 and held < nodes - 1:
-        i = nodes - 1
-        r = 4 * i - lead
-        x, dx = row(q, i), (step[r], step[r + 1], step[r + 2])
-        reach = fast * share * norm(dx) / CAUTION + tube.offset
-        if not clear_of_wall(x, tube.known[0], fast, reach):
-            share = travel(tube.path, x, dx, tube.offset, tube.known[0], tube.jet[0], share)
     return share

@@ -1,4 +1,4 @@
-"""What the wall and the virtual tube add to energy, gradient and Hessian (P-11, P-13, P-19)."""
+"""What the wall adds to energy, gradient and Hessian (P-11, P-13)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from magwire.kernels.scatter import add_diagonal, add_vector
 from magwire.kernels.vectors import row
 from magwire.kernels.wall.between import add_between
 from magwire.kernels.wall.gap import fall
-from magwire.kernels.wall.push import all_clear, press, press_tube
+from magwire.kernels.wall.push import all_clear, press
 
 
 @short
@@ -22,7 +22,7 @@ def add_walls(rod, lumen, wall, state, held, gradient, band):
     energy
         +inf if any point is in the wall.
     nearest
-        Smallest clearance of the points that feel the wall or the virtual tube; +inf if none does.
+        Smallest clearance of the points that feel the wall; +inf if none does.
     """
     energy = 0.0
     nearest = inf
@@ -44,12 +44,4 @@ def add_walls(rod, lumen, wall, state, held, gradient, band):
         d, value = add_between(rod, lumen, wall, state, held, gradient, band)
         nearest = min(nearest, d)
         energy += value
-    if wall.tube.stiffness > 0.0 and held < tip:
-        d, value, pushed, block = press_tube(rod, wall.tube, row(state.q, tip))
-        if d < inf:
-            nearest = min(nearest, d)
-            energy += value
-            add_vector(gradient, tip, 1.0, pushed)
-            if len(band) > 0:
-                add_diagonal(band, 4 * (tip - held + 1), block)
     return energy, nearest

@@ -83,13 +83,3 @@ def press(rod, lumen, wall, x, i):
     stiffness, give = wall.stiffness * rod.cell[i], at_node(wall.bed, i)
     known, jet, easy = wall.known[i], wall.jet[i], wall.easy
     return push(lumen, x, stiffness, wall.gap, rod.offset[i], known, jet, give, easy)
-
-
-@kernel
-def press_tube(rod, tube, x):
-    """Barrier of the virtual tube on the tip at x; see ``push`` (P-19)."""
-    if clear_of_wall(x, tube.known[0], fall(tube.path), tube.gap + tube.offset):
-        return inf, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    stiffness = tube.stiffness * rod.cell[rod.cell.shape[0] - 1]
-    known, jet = tube.known[0], tube.jet[0]
-    return push(tube.path, x, stiffness, tube.gap, tube.offset, known, jet, (), known)

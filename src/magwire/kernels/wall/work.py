@@ -26,7 +26,7 @@ def count_half(movings, model, state, there, work):
         Where the wire is: at the end, or at the beginning, carried along with the wall.
     """
     if len(movings) > 0:
-        rod, _, wall, lumen = model
+        rod, wall, lumen = model.rod, model.wall, model.lumen
         held = state.held[0]
         read_loads(rod, lumen, wall, there, held, work.gradient, work.no_band)
         for i in range(held + 1, state.q.shape[0]):
