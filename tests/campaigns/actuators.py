@@ -26,7 +26,7 @@ from magwire.navigate.least_cost import prices_of
 from magwire.navigate.schedule import last_tries
 from magwire.scenario import load, parse
 from magwire.scenario.reader import text_of
-from magwire.scenario.schedules import replayed
+from magwire.scenario.replays import replayed
 
 PAGE = Path(__file__).parents[2] / "docs/coils.md"
 HEAD = (

@@ -8,7 +8,7 @@ import numpy as np
 
 from magwire.results import Result
 from magwire.scenario import load
-from magwire.scenario.schedules import replayed
+from magwire.scenario.replays import replayed
 
 NAMES = ("half-circle", "half-circle-narrow", "half-circle-wide", "sinusoid", "helix")
 COEFFICIENTS = (0.0, 0.05, 0.1, 0.3)

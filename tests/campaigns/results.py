@@ -22,7 +22,7 @@ def reading(path: Path, draw: bool) -> Callable[[], int]:
         from magwire.errors import MagwireError
         from magwire.report import run as summary
         from magwire.results import Result
-        from magwire.scenario.schedules import replayed
+        from magwire.scenario.replays import replayed
 
         try:
             result = Result.load(path)

@@ -8,7 +8,7 @@ import pytest
 from actuate.on_an_arm import fastest, nearest
 from magwire.navigate import arm
 from magwire.scenario import load
-from magwire.scenario.schedules import replayed
+from magwire.scenario.replays import replayed
 
 COARSE = ["solver.time_step=50 ms", "feed.speed=2 mm/s", "output.record_every=1 mm"]
 TIGHT = ["navigate.stability_margin=10 1/s^2", "feed.distance=62 mm"]

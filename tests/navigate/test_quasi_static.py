@@ -15,7 +15,7 @@ from magwire.lumen import Lumen
 from magwire.navigate import Observation
 from magwire.results import Result
 from magwire.scenario import load, schedule_of
-from magwire.scenario.schedules import replayed
+from magwire.scenario.replays import replayed
 from magwire.simulation import Simulation
 from wires import L, lumen, paper_wire, simulation
 

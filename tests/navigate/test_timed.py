@@ -10,7 +10,7 @@ import pytest
 import magwire as mw
 from magwire.scenario import load, parse
 from magwire.scenario.courses import read_columns
-from magwire.scenario.schedules import replayed
+from magwire.scenario.replays import replayed
 
 WIRE = mw.Wire.uniform(0.05, 0.6e-3, 3e6, 1e6, 2000.0, 24, magnetized_tip=5e-3, magnetization=128e3)
 TIME = [0.0, 1.0, 3.0]

@@ -19,7 +19,7 @@ from magwire.navigate import arm
 from magwire.navigate.inputs import InputSchedule
 from magwire.scenario import inputs_of, load_actuator, parse, read_inputs, write_inputs
 from magwire.scenario.reader import load, text_of
-from magwire.scenario.schedules import replayed
+from magwire.scenario.replays import replayed
 
 PAIR = """
 [[actuator.pairs]]

@@ -14,7 +14,8 @@ from magwire.navigate.paper import Optimiser, PaperNavigator
 from magwire.navigate.stable import StableNavigator
 from magwire.results import Result
 from magwire.scenario import load, parse, read_schedule, schedule_of, write_schedule
-from magwire.scenario.schedules import HEADER, replayed
+from magwire.scenario.replays import replayed
+from magwire.scenario.schedules import HEADER
 
 SHORT = ("feed.distance=2 mm", "solver.time_step=100 ms", "wire.nodes=40", "navigate.method=none")
 HEAD = ",".join(HEADER)

@@ -6,14 +6,15 @@ import os
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import magwire as mw
 from magwire.cli import main
 from magwire.errors import MagwireError, ScenarioError
 from magwire.many.sweep import read as read_sweep
-from magwire.scenario import load, parse, read_schedule
-from magwire.scenario.schedules import replayed
+from magwire.scenario import load, parse, read_schedule, schedule_of
+from magwire.scenario.replays import replayed
 from magwire.units import parse as parse_quantity
 
 DIGITS, HEX = "9" * 5000, "0x" + "f" * 5000
@@ -64,6 +65,24 @@ def test_the_scenario_of_a_damaged_result() -> None:
     result.dataset.attrs["scenario"] = result.scenario.replace("=", "\n", 1)
     with pytest.raises(ScenarioError, match="'of the result' is not valid TOML"):
         replayed(result)
+
+
+def test_the_field_that_steered_a_damaged_result() -> None:
+    """Only the outside field's table counts: it is taken off what was recorded."""
+    result = load(
+        "straight",
+        ("feed.distance=1 mm", "wire.nodes=24", "field.flux_density=['0 mT', '0 mT', '1 mT']"),
+    ).run()
+    whole = schedule_of(result)
+    text = result.scenario
+    result.dataset.attrs["scenario"] = text.replace("speed", "sped")
+    assert np.array_equal(schedule_of(result).flux_density, whole.flux_density)
+    result.dataset.attrs["scenario"] = text.replace('kind = "uniform"', 'kind = "even"')
+    with pytest.raises(ScenarioError, match=r"Input field\.kind must be one of .*'even'"):
+        schedule_of(result)
+    result.dataset.attrs["scenario"] = text.replace("=", "\n", 1)
+    with pytest.raises(ScenarioError, match="'of the result' is not valid TOML"):
+        schedule_of(result)
 
 
 def test_a_run_with_a_scenario_that_is_none() -> None:

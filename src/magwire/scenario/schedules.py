@@ -5,20 +5,18 @@ from __future__ import annotations
 import csv
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-import tomli_w
 from numpy.typing import NDArray
 
-from magwire.errors import InputError, finite, positive
-from magwire.files import parse_toml, read_text, write_whole
+from magwire.errors import InputError
+from magwire.files import read_text, write_whole
 from magwire.navigate import Schedule
 from magwire.navigate.schedule import last_tries
 
 if TYPE_CHECKING:
     from magwire.results import Result
-    from magwire.scenario.model import Scenario
 
 HEADER = ("feed [m]", "Bx [T]", "By [T]", "Bz [T]")
 
@@ -92,79 +90,13 @@ def schedule_of(result: Result) -> Schedule:
     flux = result.field[course]
     if result.scenario:
         from magwire.pieces import spans
-        from magwire.scenario.reader import parse
+        from magwire.scenario.background import field_of
 
-        own = parse(result.scenario, source="of the result").field.build()
+        own = field_of(result.scenario)
         nodes = result.held.variables["position"]
         tips = [nodes[records, -1].values for records in spans(result.held, "position")]
         flux = flux - own.at(np.concatenate(tips)[course])[0]
     return Schedule(fed[course], flux)
-
-
-def replayed(
-    result: Result,
-    overrides: Sequence[str] = (),
-    *,
-    scale: float = 1.0,
-    resample: float | None = None,
-) -> Scenario:
-    """The scenario of a result in dynamic motion, steered by the field that the result recorded.
-
-    With an actuator, by the inputs that it recorded.
-
-    Parameters
-    ----------
-    result
-        A result with a scenario.
-    overrides
-        Keys to set in the scenario, ``key=value`` each.
-    scale
-        Factor on the field.
-    resample
-        Feed between two values that are kept [m]; all are kept if left out.
-
-    Raises
-    ------
-    InputError
-        If the result has no records, or no scenario.
-    ScenarioError
-        If the scenario has faults.
-    """
-    from magwire.scenario.kinds.navigate.timed import TimedSteering
-    from magwire.scenario.reader import parse
-
-    if not result.scenario:
-        raise InputError(
-            "Input result of replayed must have a scenario; received one of a run that was set up "
-            "in Python."
-        )
-    finite("replayed", "scale", scale)
-    if resample is not None:
-        positive("replayed", "resample", resample, "m")
-    whole = parse(result.scenario, source="of the result")  # a file may be damaged
-    raw = parse_toml(result.scenario)
-    if isinstance(whole.navigate, TimedSteering):
-        raw["navigate"] = whole.navigate.scaled(scale).model_dump(exclude_none=True)
-    else:
-        raw["navigate"] = _recorded(result, scale, resample, inputs="actuator" in raw)
-    raw.setdefault("solver", {})["motion"] = "dynamic"  # where a schedule proves itself (P-23)
-    return parse(tomli_w.dumps(raw), overrides, source="of the result")
-
-
-def _recorded(
-    result: Result, scale: float, resample: float | None, *, inputs: bool
-) -> dict[str, Any]:
-    """The navigator's table of what a result recorded: its field, or its actuator's inputs."""
-    if inputs:
-        from magwire.scenario.columns import NamedColumns
-        from magwire.scenario.courses import columns_of, inputs_of
-
-        course = inputs_of(result).scaled(scale)
-        course = course if resample is None else course.resampled(resample)
-        return {"method": "inputs", "table": NamedColumns().write(columns_of(course))}
-    schedule = schedule_of(result).scaled(scale)
-    schedule = schedule if resample is None else schedule.resampled(resample)
-    return {"method": "schedule", "table": rows_of(schedule)}
 
 
 def rows_of(schedule: Schedule) -> list[list[str]]:

@@ -44,7 +44,7 @@ def replay(
         Overwrite what a former run left in the folder.
     """
     from magwire.results import Result
-    from magwire.scenario.schedules import replayed
+    from magwire.scenario.replays import replayed
     from magwire.units import parse
 
     step = None if resample is None else parse(resample, "length", "--resample")

@@ -137,7 +137,7 @@ def perform(ask: Ask, runs: Runs, common: Sequence[str] = ()) -> Run | None:
         None for the replay of a run that did not reach its end.
     """
     from magwire.scenario import load
-    from magwire.scenario.schedules import replayed
+    from magwire.scenario.replays import replayed
 
     if ask.replay is None:
         scenario = load(ask.scenario, (*common, f"navigate.method={ask.method}", *ask.changes))
