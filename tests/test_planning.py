@@ -13,6 +13,7 @@ import pytest
 
 import magwire as mw
 import surfaces
+from campaigns.planner_vessels import vessel
 from magwire.cli import main
 from magwire.cli.errand import _wire
 from magwire.many.planners import Task, plan_at_once
@@ -386,6 +387,32 @@ def test_a_course_with_a_spike_is_planned_nearer_to_the_centreline_too(
     spiky = replace(spiky, flux_density=np.append(sizes, 0.039))  # less than eight times the rest
     mw.plan(FORK, WIRE, outlets=("aside",))
     assert asked == [0.4]
+
+
+def test_an_outlet_that_is_missed_is_planned_for_nearer_to_the_centreline_too() -> None:
+    """A random vessel in which one rim after the other is followed until there is no way on."""
+    lumen, wire = vessel(7)
+    (kept,) = mw.plan(lumen, wire)
+    assert kept.reached
+    said = r"Planned with tip_clearance 0\.55; with 0\.4 \d\.\d+ mm are left\."
+    assert re.fullmatch(said, kept.reason)
+
+
+def test_where_more_field_would_do_no_other_course_is_tried(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It would be at its limit, too; and so it is where the wire has nothing to lean on."""
+    asked: list[float] = []
+    travel = outlets._travel
+
+    def counted(nothing: mw.Prospect, route: Route, demands: mw.Demands) -> mw.Prospect:
+        asked.append(demands.tip_clearance)
+        return travel(nothing, route, demands)
+
+    monkeypatch.setattr(outlets, "_travel", counted)
+    (refused,) = mw.plan(FORK, WIRE, demands=mw.Demands(max_field=1e-3), outlets=("aside",))
+    assert not refused.reached
+    assert len(asked) == 1
 
 
 def test_what_to_do_where_a_wire_has_nothing_to_lean_on() -> None:

@@ -257,7 +257,8 @@ class OutletNumbers:
         Peak field, over the median along the way, from which on a course is also planned with the
         tip nearer to the centreline.
     nearer
-        Parts of its room that the tip gives up there, one tried after the other.
+        Parts of its room that the tip gives up there, and where an outlet is missed, one tried
+        after the other.
     """
 
     pace: float = 0.2

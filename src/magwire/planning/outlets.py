@@ -131,31 +131,54 @@ def _prospect(
         )
     route = route_to(lumen, wire, contact)
     found = _travel(nothing, route, demands)
-    return _nearer(found, nothing, route, demands) if _has_spike(found) else found
+    if _has_spike(found) if found.reached else _is_lost(found, route, demands):
+        return _nearer(found, nothing, route, demands)
+    return found
 
 
 def _has_spike(found: Prospect) -> bool:
     """Whether the field of a course is far larger in one place than elsewhere."""
     sizes = found.flux_density[found.flux_density > 0.0]
-    return found.reached and len(sizes) > 0 and sizes.max() > tuned.OUTLET.spike * np.median(sizes)
+    return len(sizes) > 0 and bool(sizes.max() > tuned.OUTLET.spike * np.median(sizes))
+
+
+def _is_lost(found: Prospect, route: Route, demands: Demands) -> bool:
+    """Whether an outlet is not reached though there is field left, and a wall to lean on."""
+    return not (_at_limit(found, demands) or remedy(route.replayed.system, found.came))
+
+
+def _at_limit(found: Prospect, demands: Demands) -> bool:
+    """Whether more field would do."""
+    return found.peak_field >= AT_LIMIT * demands.max_field
 
 
 def _nearer(found: Prospect, nothing: Prospect, route: Route, demands: Demands) -> Prospect:
-    """The course, or one with the tip nearer to the centreline if that takes less field.
+    """The course, or one nearer to the centreline if only that gets there, or in less field.
 
     Fields are planned one feed after the other. A wire that comes to a bend with its tip at the
-    rim of its room may need far more field there than one that comes along the middle.
+    rim of its room may need far more field there than one that comes along the middle, or more than
+    any.
     """
     for part in tuned.OUTLET.nearer:
         clearance = demands.tip_clearance + part * (1.0 - demands.tip_clearance)
         other = _travel(nothing, route, replace(demands, tip_clearance=clearance))
-        if other.reached and other.peak_field < found.peak_field:
+        if other.reached and not (found.reached and other.peak_field >= found.peak_field):
+            before = (
+                f"it takes {1e3 * found.peak_field:.3g} mT"
+                if found.reached
+                else _left(found, route)
+            )
             said = (
-                f"Planned with tip_clearance {clearance:.3g}; with {demands.tip_clearance:.3g} it "
-                f"takes {1e3 * found.peak_field:.3g} mT."
+                f"Planned with tip_clearance {clearance:.3g}; with {demands.tip_clearance:.3g} "
+                f"{before}."
             )
             return replace(other, reason=" ".join(filter(None, (said, other.reason))))
     return found
+
+
+def _left(found: Prospect, route: Route) -> str:
+    """How far the tip is from the goal, in words."""
+    return f"{1e3 * (route.goal - found.came):.4g} mm are left"
 
 
 @dataclass(frozen=True)
@@ -223,14 +246,13 @@ def _travel(nothing: Prospect, route: Route, demands: Demands) -> Prospect:
     )
     if found.reached:
         return found
-    left = f"{1e3 * (goal - found.came):.4g} mm are left"
+    left = _left(found, route)
     if planned.status != RunStatus.COMPLETE:
         reason = planned.message
     elif route.replayed.tip_arc(planned.position[-1]) < goal:
         reason = f"All of the wire is inserted, and {left}. {planned.message}"
     else:
         reason = f"A course of the field was planned, but replayed with inertia {left}."
-    bound = found.peak_field >= AT_LIMIT * demands.max_field  # then more field would do
-    advice = "" if bound else remedy(route.replayed.system, found.came)
+    advice = "" if _at_limit(found, demands) else remedy(route.replayed.system, found.came)
     replayed = "" if result is planned else result.message
     return replace(found, reason=" ".join(filter(None, (reason.strip(), replayed, advice))))
