@@ -8,7 +8,7 @@ import pytest
 import magwire as mw
 from magwire.actuate import Circuit, Coil, Helmholtz, Input, Loops, Magnet, Pair, Pose
 from magwire.navigate.allocation import Allocated
-from magwire.navigate.least_cost import allocate, binding
+from magwire.navigate.least_cost import allocate, binding, lacking
 
 PLACE = np.array([0.004, -0.003, 0.002])
 
@@ -26,9 +26,9 @@ def coils(count: int = 8, limit: float = 20.0) -> Loops:
     return Loops(coils=tuple(made), currents=tuple(currents))
 
 
-def platform(limit: float = 40.0) -> Helmholtz:
+def platform(limit: float = 40.0, supply: float = 48.0) -> Helmholtz:
     """Three nested pairs around the half-circle."""
-    circuit = Circuit(resistance=1.0, inductance=5e-3, supply=48.0)
+    circuit = Circuit(resistance=1.0, inductance=5e-3, supply=supply)
     return Helmholtz(
         pairs=tuple(
             Pair(axis, radius, 200.0, max_current=limit, circuit=circuit)
@@ -123,6 +123,37 @@ def test_the_coil_that_is_too_weak_is_named_with_the_feed() -> None:
     assert result.message.startswith("At ")
     assert "mm of feed the magnet needs" in result.message
     assert "input Ix is at its limit of 10" in result.message
+
+
+def test_a_supply_that_does_not_hold_the_current_is_named_with_both() -> None:
+    """Not as a rate of change: a current beyond supply over resistance is never reached."""
+    simulation = half_circle(platform(limit=100.0, supply=10.0))
+    result = simulation.run(mw.Feed(4e-3, 0.072), STEADY, time_step=0.05)
+    assert result.status == "no field"
+    said = "input Ix is at 9.8 A, as much as its supply of 10 V holds against 1 ohm; it takes "
+    assert said in result.message
+    assert "would have to change" not in result.message
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "needed", "said"),
+    [
+        (-20.0, 20.0, -30.0, ("input I is at its limit of 20 A", "30 A")),
+        (0.0, 20.0, -3.0, ("input I is at its limit of 0 A", "-3 A")),
+        (-100.0, 100.0, 30.0, ("input I is at 20 A, as much as its supply", "30 A")),
+        (-20.0, 20.0, 20.004, ("input I is at its limit of 20 A", "20.004 A")),
+    ],
+)
+def test_what_is_lacking_is_told_by_the_side_that_binds(
+    low: float, high: float, needed: float, said: tuple[str, str]
+) -> None:
+    other = Input("I0", "A", -1.0, 1.0)
+    one = Input("I", "A", low, high, resistance=4.9, inductance=1e-3, supply=100.0)
+    found = lacking((other, one), np.array([0.5, needed]))
+    assert found is not None
+    assert found[0].startswith(said[0])
+    assert found[1] == said[1]
+    assert lacking((other, one), np.array([0.5, 0.0])) is None
 
 
 def test_without_an_actuator_there_are_no_inputs_to_steer_by() -> None:

@@ -230,6 +230,7 @@ class _Programme(NamedTuple):
 
 
 def _range(i: Input, max_power: float) -> tuple[float, float]:
-    """Limits of an input, and what the power leaves to it alone."""
+    """What an input can be held at, and what the power leaves to it alone."""
     alone = math.sqrt(max_power / i.resistance) if i.resistance > 0.0 else math.inf
-    return max(i.low, -alone), min(i.high, alone)
+    low, high = i.held
+    return max(low, -alone), min(high, alone)

@@ -27,7 +27,17 @@ from magwire.errors import InputError, one_of
 from magwire.navigate.arm import Arm
 from magwire.navigate.direct import Direct
 from magwire.navigate.inputs import InputSchedule
-from magwire.navigate.least_cost import FREE, LEAST, REACH, allocate, binding, cheapest, prices_of
+from magwire.navigate.least_cost import (
+    FREE,
+    LEAST,
+    REACH,
+    allocate,
+    binding,
+    cheapest,
+    held,
+    lacking,
+    prices_of,
+)
 from magwire.navigate.model import across
 from magwire.navigate.navigator import NavigationError, Navigator, Observation, Steering
 from magwire.navigate.schedule import Schedule
@@ -114,8 +124,7 @@ class AllocatingNavigator:
         begin, end = system.wire.magnet
         self._behind = system.wire.length - 0.5 * (begin + end)  # of the tip, the magnet's middle
         inputs = system.actuator.inputs
-        self._low = np.array([one.low for one in inputs])
-        self._high = np.array([one.high for one in inputs])
+        self._low, self._high = held(inputs)
         self._prices = prices_of(inputs)
         self._last = system.idle_inputs
         self._feed = float("inf")
@@ -204,17 +213,11 @@ class AllocatingNavigator:
 
     def _lacking(self) -> str:
         """Which limit is in the way of the tip, as the end of a sentence; "" if none is known."""
-        if self._needed is None:
+        over = None if self._needed is None else lacking(self._actuator.inputs, self._needed)
+        if over is None:
             return ""
-        limits = np.maximum(np.abs(self._low), np.abs(self._high))
-        worst = int(np.argmax(np.abs(self._needed) / limits))
-        one, needed = self._actuator.inputs[worst], float(abs(self._needed[worst]))
-        if needed <= limits[worst]:
-            return ""
-        return (
-            f"input {one.name} is at its limit of {limits[worst]:g} {one.unit}; to bring the tip "
-            f"to where it is planned takes {needed:.3g} {one.unit}."
-        )
+        limit, takes = over
+        return f"{limit}; to bring the tip to where it is planned takes {takes}."
 
     def _astray(self, inputs: Array, flux: Array, place: Array) -> str:
         """Why no inputs do though none is at its limit, as the end of a sentence."""

@@ -26,6 +26,7 @@ from magwire.engine.system import System
 from magwire.kernels.linearise import new_linear, steadiness
 from magwire.navigate import tuned
 from magwire.navigate.demands import Demands
+from magwire.navigate.least_cost import held
 from magwire.navigate.model import across
 from magwire.navigate.programme import NORMALS
 
@@ -93,8 +94,7 @@ class Direct:
         self._system: System = system
         self._actuator: Actuator = system.actuator
         inputs = system.actuator.inputs
-        self._low = np.array([one.low for one in inputs])
-        self._high = np.array([one.high for one in inputs])
+        self._low, self._high = held(inputs)
         self._currents = np.array([one.unit not in ("m", "") for one in inputs])
         self._prices = prices
         self._limits = system.step_limits()
@@ -228,9 +228,9 @@ class Direct:
         """The limits that the inputs are at, "" if there are none."""
         u = self.plant.inputs / self.weak
         said = [
-            f"input {one.name} is at its {edge:g} {one.unit}"
+            one.at_limit(edge)
             for one, value in zip(self._actuator.inputs, u, strict=True)
-            for edge in (one.low, one.high)
+            for edge in one.held
             if one.unit and abs(value - edge) <= AT * max(1.0, abs(edge)) < np.inf
         ]
         if isinstance(self._actuator, Magnet) and self.spare(self.plant.inputs) < 2.0 * SPARE:

@@ -29,6 +29,28 @@ def prices_of(inputs: Sequence[Input]) -> Array:
     return np.array(known)
 
 
+def held(inputs: Sequence[Input]) -> tuple[Array, Array]:
+    """Lowest and highest values to plan with, shape (m,) each."""
+    low, high = np.array([one.held for one in inputs]).T
+    return low, high
+
+
+def lacking(inputs: Sequence[Input], needed: Array) -> tuple[str, str] | None:
+    """In words, which limit is exceeded most by inputs that are needed, and what it takes."""
+    low, high = held(inputs)
+    edges = np.where(needed < 0.0, low, high)
+    over = np.abs(needed) / np.maximum(np.abs(edges), CLOSE)
+    worst = int(np.argmax(over))
+    if over[worst] <= 1.0:
+        return None
+    one, edge, takes = inputs[worst], float(edges[worst]), float(needed[worst])
+    digits = 3  # enough of them to tell the two apart
+    while f"{takes:.{digits}g}" == f"{edge:.{digits}g}" and digits < 17:
+        digits += 1
+    shown = abs(takes) if one.low == -one.high else takes
+    return one.at_limit(edge), f"{shown:.{digits}g} {one.unit}"
+
+
 def allocate(
     actuator: Actuator, place: ArrayLike, flux: ArrayLike, start: ArrayLike | None = None
 ) -> Array | None:
@@ -56,8 +78,7 @@ def allocate(
     where = array("allocate", "place", place, (3,), "m")[None]
     wanted = array("allocate", "flux", flux, (3,), "T")
     u = np.array(actuator.idle if start is None else start, dtype=np.float64)
-    low = np.array([one.low for one in actuator.inputs])
-    high = np.array([one.high for one in actuator.inputs])
+    low, high = held(actuator.inputs)
     currents = np.array([one.unit == "A" for one in actuator.inputs])
     prices = prices_of(actuator.inputs)
     unit = max(float(np.linalg.norm(wanted)), LEAST)
@@ -129,17 +150,9 @@ def binding(actuator: Actuator, place: ArrayLike, flux: ArrayLike, start: ArrayL
     if np.linalg.norm(by_input @ change - (wanted - made)) > 1e-6 * np.linalg.norm(wanted):
         return f"{asked} in a direction that the actuator does not make there."
     needed = u + change
-    limits = np.array([max(abs(one.low), abs(one.high)) for one in actuator.inputs])
-    over = np.abs(needed) / limits
-    worst = int(np.argmax(over))
-    one = actuator.inputs[worst]
-    if over[worst] <= 1.0:
+    over = lacking(actuator.inputs, needed)
+    if over is None:
         said = actuator.violations(needed)
         return f"{asked}: {said[0]}" if said else f"{asked}, and no inputs within the limits do."
-    digits = 3  # enough of them to tell the two apart
-    while f"{abs(needed[worst]):.{digits}g}" == f"{limits[worst]:.{digits}g}" and digits < 17:
-        digits += 1
-    return (
-        f"{asked}: input {one.name} is at its limit of {limits[worst]:.{digits}g} {one.unit}; "
-        f"it takes {abs(needed[worst]):.{digits}g} {one.unit}."
-    )
+    limit, takes = over
+    return f"{asked}: {limit}; it takes {takes}."
