@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from magwire.cli import main
@@ -44,6 +45,18 @@ def test_a_magnet_is_drawn_with_its_reach(tmp_path: Path) -> None:
     low, high = magnet.pose.shift - 0.05, magnet.pose.shift + 0.05
     figure = draw(magnet, Scene(low, high, magnet.idle), None)
     assert {ax.get_ylabel() for ax in figure.axes} >= {"flux density [mT]", "y [mm]"}
+
+
+def test_where_a_magnet_is_drawn_to_be_is_in_the_axes_of_the_picture() -> None:
+    """Not in those of its arm, which stands turned here."""
+    from magwire.actuate import Magnet, Pose
+    from magwire.plot.actuators import Scene, draw
+
+    pose = Pose.turned((0.0, 1.0, 0.0), np.pi / 2.0, (0.0, 0.01, 0.0))
+    parked = (0.1, 0.02, 0.03, 0.0, 0.0, -2.0)
+    magnet = Magnet(radius=0.02, remanence=1.4, parked=parked, pose=pose)
+    figure = draw(magnet, Scene(np.full(3, -0.05), np.full(3, 0.05), magnet.idle), None)
+    assert figure.axes[0].get_title(loc="left") == "magnet at 30, 30, -100 mm, along -1, 0, 0"
 
 
 def test_a_scenario_without_an_actuator_is_refused(capsys: pytest.CaptureFixture[str]) -> None:

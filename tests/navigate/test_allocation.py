@@ -2,11 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from scipy.optimize import minimize
 
 import magwire as mw
-from magwire.actuate import Circuit, Coil, Helmholtz, Input, Loops, Magnet, Pair, Pose
+from actuate.handed import FOLDER, needs_files
+from magwire.actuate import (
+    MPEM,
+    Circuit,
+    Coil,
+    Helmholtz,
+    Input,
+    Loops,
+    Magnet,
+    Pair,
+    Pose,
+    extremes,
+)
 from magwire.navigate.allocation import Allocated
 from magwire.navigate.least_cost import allocate, binding, lacking
 
@@ -91,6 +106,53 @@ def test_what_binds_is_named_with_figures() -> None:
     assert said.startswith("the magnet needs 50 mT: input ")
     assert f"input I{worst} is at its limit of 1 A" in said
     assert f"{abs(needed[worst]):.3g} A." in said
+
+
+def iron_cores() -> MPEM:
+    """CardioMag with its saturation, 35 A a coil."""
+    read = MPEM.read(
+        FOLDER / "cardiomag_2019_calibration.yaml",
+        saturation=FOLDER / "cardiomag_2019_saturation.yaml",
+    )
+    return replace(read, max_currents=(35.0,) * 8, circuits=(Circuit(resistance=1.0),) * 8)
+
+
+@needs_files
+@pytest.mark.parametrize("part", [0.5, 0.9, 0.99])
+def test_least_power_of_saturated_cores_is_that_of_a_solver_for_any_function(part: float) -> None:
+    """Nearly up to what there is, where most of the currents are at their limits."""
+    actuator, place = iron_cores(), np.array([0.0, 0.0, 0.12])
+    aim = np.array([0.3, -1.0, 0.2])
+    flux = part * extremes(actuator, place, aim[None]).flux_density[0] * aim / np.linalg.norm(aim)
+    found = allocate(actuator, place, flux)
+    assert found is not None
+    other = minimize(
+        lambda u: 1e-3 * u @ u,
+        found + np.random.default_rng(1).normal(size=8),
+        jac=lambda u: 2e-3 * u,
+        bounds=[(-35.0, 35.0)] * 8,
+        constraints={
+            "type": "eq",
+            "fun": lambda u: 1e3 * (actuator.at(place[None], u)[0][0] - flux),
+            "jac": lambda u: 1e3 * actuator.response(place[None], u)[0][0].T,
+        },
+        options={"ftol": 1e-12, "maxiter": 500},
+    )
+    assert found @ found == pytest.approx(1e3 * other.fun, rel=1e-5)
+    np.testing.assert_allclose(actuator.at(place[None], found)[0][0], flux, atol=1e-8)
+
+
+@needs_files
+def test_saturated_cores_say_what_there_is_and_which_are_at_their_limits() -> None:
+    actuator, place, flux = iron_cores(), np.array([0.0, 0.0, 0.12]), np.array([0.3, 0.0, 0.0])
+    assert allocate(actuator, place, flux) is None
+    most = 1e3 * extremes(actuator, place, flux[None]).flux_density[0]
+    said = binding(actuator, place, flux, actuator.idle)
+    assert said.startswith("the magnet needs 300 mT: in its direction there are at most ")
+    assert f"{most:.4g} mT, with Coil_" in said
+    assert said.endswith((" at 35 A.", " at -35 A."))
+    weak = replace(actuator, max_power=100.0)
+    assert binding(weak, place, flux, weak.idle).endswith("with the power at 100 W.")
 
 
 @pytest.mark.parametrize("flux", [(0.0, 5e-3, 0.0), (4e-3, -8e-3, 2e-3), (-0.02, 0.0, 0.0)])

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.actuate import Magnet
+from magwire.actuate.curve import curves_of
 from magwire.engine.command import Drive
 from magwire.engine.plant import Plant, Snapshot
 from magwire.engine.point import Point
@@ -37,6 +38,7 @@ from magwire.navigate.least_cost import (
     held,
     lacking,
     prices_of,
+    steepness,
 )
 from magwire.navigate.model import across
 from magwire.navigate.navigator import NavigationError, Navigator, Observation, Steering
@@ -126,6 +128,7 @@ class AllocatingNavigator:
         inputs = system.actuator.inputs
         self._low, self._high = held(inputs)
         self._prices = prices_of(inputs)
+        self._curves = curves_of(system.actuator)
         self._last = system.idle_inputs
         self._feed = float("inf")
         self._needed: Array | None = None  # inputs without limits, where the limits bind
@@ -311,17 +314,16 @@ class AllocatingNavigator:
         """Change the inputs at the least cost so that nothing is off; whether the wire follows."""
         plant, u = self._plant, self._plant.inputs
         near = np.where(self._currents, FREE, REACH)
+        steep = steepness(self._curves, u)
+        cost = self._prices * steep, np.where(self._currents, u, 0.0) / steep
         change = cheapest(
-            self._prices,
-            np.where(self._currents, u, 0.0),
+            *cost,
             (rows, off),
             (np.maximum(self._low - u, -near), np.minimum(self._high - u, near)),
         )
         if change is None:
             free = np.full(len(u), FREE)
-            wanted = cheapest(
-                self._prices, np.where(self._currents, u, 0.0), (rows, off), (-free, free)
-            )
+            wanted = cheapest(*cost, (rows, off), (-free, free))
             self._needed = None if wanted is None else u + wanted
             return False
         plant.inputs = np.clip(u + change, self._low, self._high)
