@@ -15,7 +15,7 @@ import magwire as mw
 import surfaces
 from campaigns.planner_vessels import vessel
 from magwire.cli import main
-from magwire.cli.errand import _wire
+from magwire.cli.errand import _wire, of_scenario
 from magwire.many.planners import Task, plan_at_once
 from magwire.planning import outlets
 from magwire.planning.remedy import remedy
@@ -489,3 +489,10 @@ def test_a_plan_at_triangles_stays_inside_of_them(monkeypatch: pytest.MonkeyPatc
         fed = nodes[nodes[:, 0] > 0.5e-3]  # past the plane of the entrance
         assert not surfaces.crossings(fed[:-1], fed[1:], *sheet).any()
         assert surfaces.apart(fed[:-1], fed[1:], *sheet) > 0.6e-3
+
+
+def test_who_plans_a_scenario_with_coils_is_told_that_they_play_no_part() -> None:
+    words = dict.fromkeys(("diameter", "field"))
+    (said,) = of_scenario(load("half-circle-helmholtz"), words).notes
+    assert said.startswith("The plan is one of a uniform field: the scenario's [actuator] plays no")
+    assert of_scenario(load("half-circle"), words).notes == ()

@@ -11,12 +11,14 @@ from scipy.integrate import solve_ivp
 from magwire.actuate import (
     Circuit,
     Coil,
+    FieldGrid,
     Hardware,
     Held,
     Helmholtz,
     Input,
     Loops,
     Magnet,
+    Map,
     Misaligned,
     Omnimagnet,
     Pair,
@@ -144,6 +146,17 @@ def test_a_background_is_not_tilted_and_parts_are() -> None:
     made = tilted.at([[0.0, 0.0, 0.0]], [1.0])[0] - earth.at([[0.0, 0.0, 0.0]], [])[0]
     one = coil().at([[0.0, 0.0, 0.0]], [1.0])[0][0, 0]
     np.testing.assert_allclose(made, one * np.array([[math.cos(0.1), math.sin(0.1), 0.0]]))
+
+
+def test_maps_are_tilted_alike_or_not_at_all() -> None:
+    grid = FieldGrid(np.full(3, -0.05), np.full(3, 0.02), np.ones((6, 6, 6, 3)))
+    maps = Map(fields=(grid, grid), controls=(Input("I", "A"), Input("J", "A")))
+    turn = (0.0, 0.0, 0.1)
+    made = Misaligned(actuator=maps, tilts=(turn, turn)).at([[0.0, 0.0, 0.0]], [1.0, 0.0])[0]
+    whole = Pose.turned(turn, 0.1).matrix @ np.ones(3)
+    np.testing.assert_allclose(made[0], whole, rtol=1e-12)
+    with pytest.raises(InputError, match=r"maps must be tilted alike, .*; received 2 tilts"):
+        Misaligned(actuator=maps, tilts=(turn, (0.0, 0.0, 0.0)))
 
 
 def test_faults() -> None:

@@ -110,6 +110,72 @@ def test_files(tmp_path: Path, name: str, write: object) -> None:
     np.testing.assert_allclose(found.step, STEP, rtol=1e-12)
 
 
+def test_an_image_as_vtk_writes_it(tmp_path: Path) -> None:
+    """With the range of its norms inside of the array, and other arrays beside it."""
+    vtk = pytest.importorskip("vtk")
+    from vtk.util.numpy_support import numpy_to_vtk
+
+    grid = sampled()
+    image = vtk.vtkImageData()
+    image.SetDimensions(*SHAPE)
+    image.SetOrigin(*FIRST)
+    image.SetSpacing(*STEP)
+    flat = np.ascontiguousarray(grid.values.transpose(2, 1, 0, 3).reshape(-1, 3))
+    for name, values in (("strength", np.linalg.norm(flat, axis=1)), ("B", flat)):
+        array = numpy_to_vtk(values, deep=True)
+        array.SetName(name)
+        image.GetPointData().AddArray(array)
+    writer = vtk.vtkXMLImageDataWriter()
+    writer.SetFileName(str(tmp_path / "b.vti"))
+    writer.SetInputData(image)
+    writer.Write()
+    with pytest.raises(InputError, match="in ASCII: write it so, by SetDataModeToAscii"):
+        read_grid(tmp_path / "b.vti")
+    writer.SetDataModeToAscii()
+    writer.Write()
+    assert "<InformationKey" in (tmp_path / "b.vti").read_text()
+    found = read_grid(tmp_path / "b.vti")
+    np.testing.assert_allclose(found.values, grid.values, rtol=1e-14, atol=1e-15)
+    np.testing.assert_allclose(found.first, FIRST, atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sentence"),
+    [
+        ("Spacing=", "Gaps=", "must have WholeExtent, Spacing and Origin that fit its array"),
+        ('Spacing="', 'Spacing="-', "must have a positive Spacing; received [-0."),
+        ("PointData", "CellData", "3 components over its points; received 0"),
+        ('Components="3"', 'Components="1"', "3 components over its points; received 0"),
+        ('format="ascii">', 'format="ascii">nan ', "that fit its array"),
+        ('Origin="-0.02', 'Origin="nan', "must have finite numbers"),
+        ("</DataArray>", "", "must be a VTK image"),
+    ],
+)
+def test_faults_of_images(tmp_path: Path, old: str, new: str, sentence: str) -> None:
+    place = tmp_path / "b.vti"
+    write_image(place, sampled())
+    place.write_text(place.read_text().replace(old, new))
+    with pytest.raises(InputError) as raised:
+        read_grid(place)
+    assert sentence in str(raised.value)
+    assert "b.vti" in str(raised.value)
+
+
+def test_a_map_in_millimetres_is_refused(tmp_path: Path) -> None:
+    rows = np.hstack([1e3 * places().reshape(-1, 3), sampled().values.reshape(-1, 3)])
+    head = {"header": "x,y,z,Bx,By,Bz", "comments": ""}
+    np.savetxt(tmp_path / "b.csv", rows, delimiter=",", **head)
+    with pytest.raises(
+        InputError, match=r"b.csv' must be in metres; received one that is [\d. x]+ m"
+    ):
+        read_grid(tmp_path / "b.csv")
+
+
+def test_inputs_of_a_map_have_names_of_their_own() -> None:
+    with pytest.raises(InputError, match="must have names of their own; received I twice"):
+        Map(fields=(sampled(), sampled()), controls=(CURRENT, CURRENT))
+
+
 def test_a_turned_image_is_refused(tmp_path: Path) -> None:
     place = tmp_path / "b.vti"
     write_image(place, sampled())
@@ -128,8 +194,15 @@ def test_a_turned_image_is_refused(tmp_path: Path) -> None:
         ("b.pkl", "", "which may hold a pickle"),
         ("b.txt", "", "must be .csv, .nc or .vti; received '.txt'"),
         ("b.csv", "x,y,z,Bx,By\n", "lacks the column Bz"),
+        ("b.csv", "x;y;z;Bx;By;Bz\n", "with commas between them; received 'x;y;z;Bx;By;Bz'"),
+        ("b.csv", "", "with commas between them; received ''"),
+        ("b.csv", "x,y,z,Bx,By,Bz\n", "must have a row for each point; received none"),
         ("b.csv", "x,y,z,Bx,By,Bz\n1,2,3,4,5,a\n", "numbers in every row"),
-        ("b.csv", "x,y,z,Bx,By,Bz\n1,2,3,4,5,nan\n", "must be finite"),
+        (
+            "b.csv",
+            "x,y,z,Bx,By,Bz\n1,2,3,4,5,nan\n",
+            "finite numbers in every row; received '1,2,3,4,5,nan'",
+        ),
         ("b.csv", "x,y,z,Bx,By,Bz\n1,2,3,4,5,6\n", "more than one x"),
         (
             "b.csv",

@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 
 from magwire.actuate import MPEM, Held
+from magwire.actuate.curve import Curve
 from magwire.errors import InputError
+from magwire.kernels.sources.table import ATAN, ERF, LINEAR, RATIONAL, TANH
 
 from .handed import FOLDER, needs_files
 
@@ -45,6 +47,19 @@ def test_iron_cores_saturate() -> None:
     little = 1e-3 * full  # the slope at zero is that of the linear calibration, within 2 percent
     now, then = system.at(point, little)[0], linear.at(point, little)[0]
     np.testing.assert_allclose(now, then, atol=0.02 * np.abs(then).max())
+
+
+@pytest.mark.parametrize("kind", [LINEAR, ERF, ATAN, TANH, RATIONAL])
+@pytest.mark.parametrize("u", [-12.0, 0.5, 20.0])
+def test_a_curve_and_its_inverse_and_how_the_square_of_the_input_bends(kind: int, u: float) -> None:
+    curve = Curve(kind, 18.0, 0.05 if kind != RATIONAL else 20.0)
+    s = curve.strength(u)
+    assert curve.input(s) == pytest.approx(u, rel=1e-9)
+    step = 1e-3
+    ends = [0.5 * curve.input(s + n * step) ** 2 for n in (-1.0, 0.0, 1.0)]
+    bend = (ends[0] - 2.0 * ends[1] + ends[2]) / step**2
+    assert curve.steepening(u) == pytest.approx(bend * curve.slope(u) ** 2, rel=1e-4)
+    assert kind == LINEAR or abs(curve.input(-1e9)) < np.inf
 
 
 @needs_files

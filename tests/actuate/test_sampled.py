@@ -80,3 +80,7 @@ def test_what_is_no_field_is_refused() -> None:
 
     with pytest.raises(InputError, match="input I must be 216 rows of three finite numbers"):
         sampled({COIL: Broken()}, BOX)
+    with pytest.raises(InputError, match=r"sources of sampled must be objects with a getB.*\["):
+        sampled({COIL: [pair()]}, BOX)  # type: ignore[dict-item]
+    with pytest.raises(InputError, match="controls of Map must be an Input; received 'I'"):
+        sampled({"I": pair()}, BOX)  # type: ignore[dict-item]

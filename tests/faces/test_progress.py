@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import logging
+
 import pytest
 
 from magwire.engine.feed import Feed
 from magwire.report import progress
+from magwire.scenario import load
 from wires import paper_wire, simulation
 
 
@@ -44,3 +47,21 @@ def test_a_run_says_feed_force_and_pace(
     assert len(said) == 4  # one of them as the run begins
     assert "100% feed 3.0 mm tip force 0.000 mN" in said[-1]
     assert said[-1].endswith("x real time")
+
+
+def test_a_magnet_on_an_arm_says_how_far_its_plan_is(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The whole course is planned before the first record comes."""
+    monkeypatch.setattr(progress, "EVERY", 0.0)
+    fast = ["feed.distance=12 mm", "feed.speed=4 mm/s", "solver.time_step=50 ms"]
+    job = load("half-circle-magnet", [*fast, "navigate.update_every=2 mm"]).build()
+    with progress.running(job.feed.duration) as watch:
+        assert job.run(watch=watch).status == "complete"
+    said = [" ".join(line.split()) for line in lines(capsys)]
+    planned = [line for line in said if line.startswith("planning at")]
+    assert planned[0].startswith("planning at 0.0 mm")
+    assert planned[-1].startswith("planning at 11.5 mm")
+    assert said[-1].startswith("running")
+    assert "100% feed 12.0 mm" in said[-1]
+    assert not logging.getLogger("magwire.navigate").handlers

@@ -10,10 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from magwire.actuate.actuator import Actuator
+from magwire.actuate.curve import Curve, curves_of
 from magwire.actuate.inputs import Input
 from magwire.errors import InputError, array
-from magwire.kernels.sources.drive import saturated
-from magwire.kernels.sources.table import ATAN, ERF, RATIONAL, TANH
 
 Array = NDArray[np.float64]
 DIRECTIONS = 200
@@ -109,49 +108,11 @@ def _units(directions: ArrayLike) -> Array:
     return units
 
 
-class _Curve(NamedTuple):
-    """Strength of one input, and back."""
-
-    kind: int
-    a: float
-    b: float
-
-    def strength(self, u: float) -> float:
-        """s(u)."""
-        if math.isinf(u):
-            return u if self.kind == 0 else math.copysign(self.most, u)
-        return float(saturated(self.kind, self.a, self.b, u)[0])
-
-    def slope(self, u: float) -> float:
-        """ds/du."""
-        return float(saturated(self.kind, self.a, self.b, u)[1])
-
-    @property
-    def most(self) -> float:
-        """Limit of a curve that saturates."""
-        return self.a * 0.5 * math.pi if self.kind == ATAN else self.a
-
-    def input(self, s: float) -> float:
-        """The input whose strength is ``s``."""
-        part = s / self.a if self.kind else s
-        if self.kind == ERF:
-            from scipy.special import erfinv
-
-            return float(erfinv(part)) / self.b
-        if self.kind == ATAN:
-            return math.tan(part) / self.b
-        if self.kind == TANH:
-            return math.atanh(part) / self.b
-        if self.kind == RATIONAL:
-            return self.b * part / (1.0 - abs(part))
-        return s
-
-
 class _Programme(NamedTuple):
     """The linear programme of one point: field = constant + columns s."""
 
     limits: tuple[tuple[float, float], ...]
-    curves: tuple[_Curve, ...]
+    curves: tuple[Curve, ...]
     resistance: Array
     max_power: float
     constant: Array
@@ -159,11 +120,7 @@ class _Programme(NamedTuple):
 
     @classmethod
     def of(cls, actuator: Actuator, point: Array) -> _Programme:
-        table = actuator.arrays()
-        curves = tuple(
-            _Curve(int(kind), float(a), float(b))
-            for kind, (a, b) in zip(table.curve, table.saturation, strict=True)
-        )
+        curves = curves_of(actuator)
         still = np.zeros(len(curves))
         constant, _ = actuator.at(point[None], still)
         if np.any(np.isnan(constant)):
@@ -230,6 +187,7 @@ class _Programme(NamedTuple):
 
 
 def _range(i: Input, max_power: float) -> tuple[float, float]:
-    """Limits of an input, and what the power leaves to it alone."""
+    """What an input can be held at, and what the power leaves to it alone."""
     alone = math.sqrt(max_power / i.resistance) if i.resistance > 0.0 else math.inf
-    return max(i.low, -alone), min(i.high, alone)
+    low, high = i.held
+    return max(low, -alone), min(high, alone)

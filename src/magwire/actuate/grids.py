@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from magwire.errors import InputError, array
+from magwire.actuate.image import read_image
+from magwire.errors import InputError, array, described
 from magwire.files import read_bytes
 
 Array = NDArray[np.float64]
@@ -18,6 +19,8 @@ LARGEST = 256 * 1024 * 1024
 """Bytes of a file of a field."""
 ROUNDING = 1e-4
 """Positions may be off their place on the grid by this share of its step."""
+WIDEST = 10.0
+"""Side of a field around a wire [m], beyond which its unit is another one: a guard, no limit."""
 HDF = b"\x89HDF"
 PICKLED = (".pkl", ".pickle", ".npy", ".npz", ".joblib", ".dill")
 
@@ -72,8 +75,8 @@ def read_grid(path: str | Path) -> FieldGrid:
     path
         .csv: columns x, y, z [m] and Bx, By, Bz [T], with their names in the first row, points in
         any order; .nc: NetCDF-3 with variables x, y, z [m] and Bx, By, Bz [T] over them; .vti: a
-        VTK image in ASCII, with one array of three components [T], origin and spacing [m],
-        its axes along x, y and z.
+        VTK image in ASCII, with one array of three components [T] over its points, origin and
+        spacing [m], its axes along x, y and z.
 
     Raises
     ------
@@ -96,7 +99,14 @@ def read_grid(path: str | Path) -> FieldGrid:
         raise InputError(f"Map '{place}' does not exist.") from None
     except OSError as error:
         raise InputError(f"Map '{place}' cannot be read: {error}.") from None
-    return readers[ending](data, f"Map '{place}'")
+    grid = readers[ending](data, f"Map '{place}'")
+    size = grid.last - grid.first
+    if size.max() > WIDEST:
+        raise InputError(
+            f"Map '{place}' must be in metres; received one that is "
+            f"{' x '.join(f'{x:.3g}' for x in size)} m large."
+        )
+    return grid
 
 
 def regular(points: ArrayLike, flux: ArrayLike, name: str) -> FieldGrid:
@@ -142,13 +152,25 @@ def _csv(data: bytes, name: str) -> FieldGrid:
     wanted = ("x", "y", "z", "Bx", "By", "Bz")
     missing = [head for head in wanted if head not in heads]
     if missing:
-        raise InputError(f"{name} lacks the column {', '.join(missing)}.")
+        raise InputError(
+            f"{name} lacks the column {', '.join(missing)}: its first row must have the names "
+            f"{','.join(wanted)}, with commas between them; received "
+            f"{described(lines[0] if lines else '')}."
+        )
+    if len(lines) < 2:
+        raise InputError(f"{name} must have a row for each point; received none.")
     try:
         rows = np.loadtxt(lines[1:], delimiter=",", ndmin=2, dtype=np.float64)
     except ValueError:
         raise InputError(f"{name} must have numbers in every row, as many as columns.") from None
     if rows.shape[1] != len(heads):
         raise InputError(f"{name} must have {len(heads)} columns; received {rows.shape[1]}.")
+    broken = np.flatnonzero(~np.isfinite(rows).all(axis=1))
+    if len(broken):
+        raise InputError(
+            f"{name} must have finite numbers in every row; received "
+            f"{described(lines[1 + int(broken[0])])}."
+        )
     columns = rows[:, [heads.index(head) for head in wanted]]
     return regular(columns[:, :3], columns[:, 3:], name)
 
@@ -180,43 +202,4 @@ def _netcdf(data: bytes, name: str) -> FieldGrid:
 
 
 def _image(data: bytes, name: str) -> FieldGrid:
-    import re
-
-    text = data.decode("utf-8", errors="replace")
-    if "<!ENTITY" in text or "<!DOCTYPE" in text:
-        raise InputError(f"{name} must have no document type.")
-    head = re.search(r"<ImageData\s+([^>]*)>", text)
-    body = re.search(r"<DataArray\s+([^>]*)>([^<]*)</DataArray>", text)
-    if head is None or body is None:
-        raise InputError(f"{name} must be a VTK image with a data array.")
-    marks = dict(re.findall(r'(\w+)="([^"]*)"', head[1]))
-    kind = dict(re.findall(r'(\w+)="([^"]*)"', body[1]))
-    if kind.get("format") != "ascii" or kind.get("NumberOfComponents") != "3":
-        raise InputError(f"{name} must have one array of 3 components in ASCII.")
-    turn = marks.get("Direction", "1 0 0 0 1 0 0 0 1")  # VTK 9 writes it with every image
-    if not _unturned(turn):
-        raise InputError(
-            f"{name} must have its axes along x, y and z, Direction 1 0 0 0 1 0 0 0 1; "
-            f"received {' '.join(turn.split())}."
-        )
-    try:
-        extent = [int(v) for v in marks["WholeExtent"].split()]
-        step = np.array([float(v) for v in marks["Spacing"].split()])
-        origin = np.array([float(v) for v in marks["Origin"].split()])
-        flux = np.array(body[2].split(), dtype=np.float64)
-        low, high = extent[::2], extent[1::2]
-        shape = [b - a + 1 for a, b in zip(low, high, strict=True)]
-        values = flux.reshape(shape[2], shape[1], shape[0], 3).transpose(2, 1, 0, 3)
-    except (KeyError, ValueError, TypeError):
-        raise InputError(
-            f"{name} must have WholeExtent, Spacing and Origin that fit its array."
-        ) from None
-    return FieldGrid(origin + step * np.array(low), step, values)
-
-
-def _unturned(direction: str) -> bool:
-    """Whether an image's direction matrix, by rows, is the identity."""
-    try:
-        return bool(np.allclose(np.array(direction.split(), float).reshape(3, 3), np.eye(3)))
-    except ValueError:
-        return False
+    return FieldGrid(*read_image(data, name))

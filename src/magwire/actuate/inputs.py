@@ -10,6 +10,8 @@ import numpy as np
 from magwire.errors import InputError, array, nonnegative, positive
 
 Vector3 = tuple[float, float, float]
+NEARLY = 0.98
+"""Part of supply / resistance to plan with: a current is there after 4 L/R, at all of it never."""
 
 
 @dataclass(frozen=True)
@@ -57,6 +59,25 @@ class Input:
             raise InputError(
                 f"Input supply of {self.name} must be positive; received {self.supply:g} V."
             )
+
+    @property
+    def held(self) -> tuple[float, float]:
+        """Lowest and highest value that it can be brought to and held at [unit].
+
+        The limits, or nearly what the supply's voltage drives through the resistance.
+        """
+        driven = NEARLY * self.supply / self.resistance if self.resistance > 0.0 else math.inf
+        return max(self.low, -driven), min(self.high, driven)
+
+    def at_limit(self, edge: float) -> str:
+        """In words, that it is at an edge of what is held, and what makes it one."""
+        shown = abs(edge) if self.low == -self.high else edge
+        if edge in (self.low, self.high):
+            return f"input {self.name} is at its limit of {shown:g} {self.unit}"
+        return (
+            f"input {self.name} is at {shown:.3g} {self.unit}, as much as its supply of "
+            f"{self.supply:g} V holds against {self.resistance:g} ohm"
+        )
 
     def rates(self, u: float) -> tuple[float, float]:
         """Lowest and highest rate of change at ``u`` [unit/s]."""

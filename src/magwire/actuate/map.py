@@ -13,7 +13,7 @@ from magwire.actuate.actuator import Actuator
 from magwire.actuate.grids import FieldGrid, read_grid
 from magwire.actuate.inputs import Box, Input
 from magwire.actuate.tables import Desk
-from magwire.errors import InputError
+from magwire.errors import InputError, instance
 
 Array = NDArray[np.float64]
 
@@ -40,6 +40,14 @@ class Map(Actuator):
             raise InputError(
                 "Map must have one field for each input; "
                 f"received {len(self.fields)} and {len(self.controls)}."
+            )
+        for one in self.controls:
+            instance("Map", "controls", one, Input)
+        names = [one.name for one in self.controls]
+        twice = sorted({name for name in names if names.count(name) > 1})
+        if twice:
+            raise InputError(
+                f"Inputs of a Map must have names of their own; received {', '.join(twice)} twice."
             )
         lead = self.fields[0]
         for other in self.fields[1:]:

@@ -42,7 +42,13 @@ class Misaligned(Actuator):
                 f"received {len(self.tilts)}."
             )
         array("Misaligned", "tilts", self.tilts, (None, 3), "rad")
-        if len(self.actuator.arrays().posed):
+        tables = self.actuator.arrays()
+        if len(tables.maps) and len(set(self.tilts)) > 1:
+            raise InputError(
+                "Fields of maps must be tilted alike, as they are on one grid; "
+                f"received {len(set(self.tilts))} tilts."
+            )
+        if len(tables.posed):
             raise InputError(
                 "The actuator of Misaligned must be of coils; received a magnet, whose arm stands "
                 "at its pose."

@@ -14,7 +14,7 @@ from magwire.actuate.grids import FieldGrid
 from magwire.actuate.inputs import Box, Input
 from magwire.actuate.map import Map
 from magwire.actuate.pose import HERE, Pose
-from magwire.errors import InputError, positive
+from magwire.errors import InputError, instance, offering, positive
 
 Array = NDArray[np.float64]
 
@@ -67,6 +67,9 @@ def sampled(
         If a field is no field, or 300,000 points are not enough.
     """
     positive("sampled", "tolerance", tolerance)
+    instance("sampled", "box", box, Box)
+    for one in sources.values():
+        offering("sampled", "sources", one, [("getB",)], "objects with a getB, one for each input")
     low, high = np.array(box.low), np.array(box.high)
     counts = np.full(3, FEWEST)
     while True:

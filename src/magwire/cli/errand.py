@@ -107,7 +107,13 @@ def of_scenario(scenario: Scenario, words: Words) -> Work:
         if (value := getattr(scenario.navigate, name, None)) is not None
     }
     demands = _demands(words, Demands(**steered))
-    return Work(lumen, wire, demands, system.contact, scenario.notes, None)
+    notes = list(scenario.notes)
+    if system.actuator is not None:
+        notes.append(
+            "The plan is one of a uniform field: the scenario's [actuator] plays no part in it; "
+            "'magwire run' steers by its inputs."
+        )
+    return Work(lumen, wire, demands, system.contact, tuple(notes), None)
 
 
 def outlets(work: Work, targets: Sequence[str]) -> tuple[str, ...]:

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from magwire.actuate import Magnet
+from magwire.actuate.curve import curves_of
 from magwire.engine.command import Drive
 from magwire.engine.plant import Plant, Snapshot
 from magwire.engine.point import Point
@@ -27,7 +28,18 @@ from magwire.errors import InputError, one_of
 from magwire.navigate.arm import Arm
 from magwire.navigate.direct import Direct
 from magwire.navigate.inputs import InputSchedule
-from magwire.navigate.least_cost import FREE, LEAST, REACH, allocate, binding, cheapest, prices_of
+from magwire.navigate.least_cost import (
+    FREE,
+    LEAST,
+    REACH,
+    allocate,
+    binding,
+    cheapest,
+    held,
+    lacking,
+    prices_of,
+    steepness,
+)
 from magwire.navigate.model import across
 from magwire.navigate.navigator import NavigationError, Navigator, Observation, Steering
 from magwire.navigate.schedule import Schedule
@@ -114,9 +126,9 @@ class AllocatingNavigator:
         begin, end = system.wire.magnet
         self._behind = system.wire.length - 0.5 * (begin + end)  # of the tip, the magnet's middle
         inputs = system.actuator.inputs
-        self._low = np.array([one.low for one in inputs])
-        self._high = np.array([one.high for one in inputs])
+        self._low, self._high = held(inputs)
         self._prices = prices_of(inputs)
+        self._curves = curves_of(system.actuator)
         self._last = system.idle_inputs
         self._feed = float("inf")
         self._needed: Array | None = None  # inputs without limits, where the limits bind
@@ -204,17 +216,11 @@ class AllocatingNavigator:
 
     def _lacking(self) -> str:
         """Which limit is in the way of the tip, as the end of a sentence; "" if none is known."""
-        if self._needed is None:
+        over = None if self._needed is None else lacking(self._actuator.inputs, self._needed)
+        if over is None:
             return ""
-        limits = np.maximum(np.abs(self._low), np.abs(self._high))
-        worst = int(np.argmax(np.abs(self._needed) / limits))
-        one, needed = self._actuator.inputs[worst], float(abs(self._needed[worst]))
-        if needed <= limits[worst]:
-            return ""
-        return (
-            f"input {one.name} is at its limit of {limits[worst]:g} {one.unit}; to bring the tip "
-            f"to where it is planned takes {needed:.3g} {one.unit}."
-        )
+        limit, takes = over
+        return f"{limit}; to bring the tip to where it is planned takes {takes}."
 
     def _astray(self, inputs: Array, flux: Array, place: Array) -> str:
         """Why no inputs do though none is at its limit, as the end of a sentence."""
@@ -235,7 +241,7 @@ class AllocatingNavigator:
         start = plant.snapshot()
         plant.inputs = weak * found
         settled = plant.settle(self._system.step_limits())[0] is Status.CONVERGED
-        if settled and direct.improve(plant.inputs, np.full(len(found), FREE)):
+        if settled and direct.cheapen():
             less = plant.inputs / weak
             if self._prices @ less**2 < self._prices @ found**2:
                 return less
@@ -308,17 +314,16 @@ class AllocatingNavigator:
         """Change the inputs at the least cost so that nothing is off; whether the wire follows."""
         plant, u = self._plant, self._plant.inputs
         near = np.where(self._currents, FREE, REACH)
+        steep = steepness(self._curves, u)
+        cost = self._prices * steep, np.where(self._currents, u, 0.0) / steep
         change = cheapest(
-            self._prices,
-            np.where(self._currents, u, 0.0),
+            *cost,
             (rows, off),
             (np.maximum(self._low - u, -near), np.minimum(self._high - u, near)),
         )
         if change is None:
             free = np.full(len(u), FREE)
-            wanted = cheapest(
-                self._prices, np.where(self._currents, u, 0.0), (rows, off), (-free, free)
-            )
+            wanted = cheapest(*cost, (rows, off), (-free, free))
             self._needed = None if wanted is None else u + wanted
             return False
         plant.inputs = np.clip(u + change, self._low, self._high)

@@ -10,6 +10,7 @@ towards the course until the two meet.
 
 from __future__ import annotations
 
+import logging
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -23,6 +24,8 @@ from magwire.navigate.direct import SPARE, Direct
 from magwire.navigate.navigator import NavigationError
 
 Array = NDArray[np.float64]
+LOG = logging.getLogger(__name__)
+"""Says how far the plan is, which may take a minute: whoever waits may listen."""
 
 AROUND = 60  # directions from the tip in which a magnet is tried
 BACK = (0.0, 0.02, 0.05, 0.1)  # before the end of a course, where it is, in the wire's length
@@ -132,6 +135,7 @@ class Arm:
         found: list[Place] = []
         last = start
         while last.feed < end - CLOSE:
+            LOG.info("planning at %.1f mm", 1e3 * last.feed)
             feed = min(last.feed + self._every, end)
             if feed > end - 1e-6 * self._every:
                 feed = end
@@ -189,7 +193,8 @@ class Arm:
         seen = plant.observe()
         flux = self._magnet.at(seen.tip[None], here.pose)[0][0]
         found: list[Place] = []
-        for line in directions(AROUND):
+        for k, line in enumerate(directions(AROUND)):
+            LOG.info("planning at %.1f mm, place %d of %d", 1e3 * here.feed, k + 1, AROUND)
             pose = self._aimed(seen.tip, line, flux)
             plant.restore(here.snapshot.with_inputs(pose))
             plant.inputs = pose
@@ -217,6 +222,7 @@ class Arm:
         plant.restore(place.snapshot)
         way = [place]
         for old in reversed([one for one in self.places if one.feed < place.feed - CLOSE]):
+            LOG.info("planning back at %.1f mm", 1e3 * old.feed)
             if not direct.feed_to(old.feed):
                 return None
             if not direct.improve(way[-1].pose, self._reach, towards=old.pose):

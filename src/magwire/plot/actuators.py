@@ -131,14 +131,19 @@ def _draw_tube(ax: Any, tube: Array, a: int, b: int) -> None:
 
 
 def _setting(actuator: Actuator, inputs: Array) -> str:
-    """The inputs in words, the largest first."""
+    """The inputs in words, the largest first; of a magnet where it is in the vessel's axes."""
     named = list(zip(actuator.inputs, inputs, strict=True))
     if isinstance(actuator, Magnet):
-        place = ", ".join(f"{1e3 * value:.3g}" for value in inputs[:3])
-        aim = ", ".join(f"{value:.2g}" for value in inputs[3:])
-        return f"magnet at {place} mm, along {aim}"
+        aim = actuator.pose.direction(inputs[3:] / np.linalg.norm(inputs[3:]))
+        place = _numbers(1e3 * actuator.pose.placed(inputs[:3]), 1)
+        return f"magnet at {place} mm, along {_numbers(aim, 2)}"
     shown = sorted(named, key=lambda one: -abs(one[1]))[:4]
     return ", ".join(f"{style.plain(one.name)} {value:.3g} {one.unit}" for one, value in shown)
+
+
+def _numbers(values: Array, digits: int) -> str:
+    """Numbers with so many digits after the point, without a minus before zero."""
+    return ", ".join(f"{value:g}" for value in np.round(values, digits) + 0.0)
 
 
 def _draw_set(panel: Any, found: Extremes) -> None:

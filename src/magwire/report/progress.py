@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -73,9 +74,34 @@ def pieces(total: int) -> Iterator[Callable[[str], None]]:
         yield begin
 
 
+class _Listener(logging.Handler):
+    """Shows what the work itself says of how far it is."""
+
+    def __init__(self, show: Callable[[str], None]) -> None:
+        super().__init__()
+        self._show = show
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self._show(record.getMessage())
+
+
+@contextmanager
+def listening(show: Callable[[str], None]) -> Iterator[None]:
+    """What navigators say while they plan is shown."""
+    said, listener = logging.getLogger("magwire.navigate"), _Listener(show)
+    level = said.level
+    said.addHandler(listener)
+    said.setLevel(logging.INFO)
+    try:
+        yield
+    finally:
+        said.removeHandler(listener)
+        said.setLevel(level)
+
+
 @contextmanager
 def running(duration: float) -> Iterator[Callable[[Record], None]]:
-    """A progress bar for a run: feed, tip force and real-time factor.
+    """A progress bar for a run: feed, tip force and real-time factor; before it, how far plans are.
 
     Parameters
     ----------
@@ -104,10 +130,12 @@ def running(duration: float) -> Iterator[Callable[[Record], None]]:
         def watch(record: Record) -> None:
             shown.update(
                 task,
+                description="running",
                 completed=record.time,
                 feed=1e3 * record.feed,
                 force=1e3 * record.tip_force,
                 factor=record.time / max(time.perf_counter() - start, 1e-9),
             )
 
-        yield watch
+        with listening(lambda said: shown.update(task, description=said)):
+            yield watch

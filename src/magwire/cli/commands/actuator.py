@@ -94,6 +94,10 @@ def _scene(file: Path, overrides: Sequence[str]) -> tuple[Actuator, Scene]:
 
     if file.suffix == ".nc" or file.is_dir():
         result = Result.load(file)
+        if not result.scenario:
+            raise CommandError(
+                "The result is of a run that was set up in Python: its actuator is not known here."
+            )
         described = parse(result.scenario, overrides, source="of the result")
         if described.actuator is None:
             raise CommandError("The scenario of the result has no table [actuator].")
