@@ -64,6 +64,14 @@ def test_an_observation_is_what_a_record_says() -> None:
     assert wire.result.status == "complete"
 
 
+def test_a_result_is_there_when_the_session_has_ended() -> None:
+    with half_circle().session(record_every=0.1) as wire:
+        wire.step(feed_speed=1e-3, duration=0.1)
+        with pytest.raises(mw.ResultError, match="ask for it after its with statement"):
+            _ = wire.result
+    assert wire.result.time.size == 2
+
+
 def test_one_chunk_is_many_steps() -> None:
     chance = np.random.default_rng(3)
     speeds = chance.choice([2e-3, -1e-3, 4e-3], 60)

@@ -18,7 +18,7 @@ from magwire.engine.record import Record
 from magwire.engine.rubbing import Change, Course, goes_on
 from magwire.engine.sensitivity import Output
 from magwire.engine.status import Status
-from magwire.errors import ConvergenceError, InputError, array, one_of, positive
+from magwire.errors import ConvergenceError, InputError, ResultError, array, one_of, positive
 from magwire.operate import Assist
 from magwire.status import RunStatus
 
@@ -333,4 +333,9 @@ class Session:
         """
         if self._recording is None:
             raise InputError("Input record_every of Simulation.session must be given for a result.")
+        if not self._closed:
+            raise ResultError(
+                "A session's result is there when the session has ended: ask for it after its with "
+                "statement."
+            )
         return self._recording[0].result()

@@ -158,18 +158,23 @@ def test_map_shows_where_along_the_lumen_the_wall_is_pressed() -> None:
     assert not shown[:, :12].any()
 
 
-def test_map_of_a_tree_tells_of_what_presses_in_other_branches() -> None:
+@pytest.mark.parametrize(("branches", "where"), [(1, "off the path"), (2, "in other branches")])
+def test_map_tells_of_what_presses_off_the_path(branches: int, where: str) -> None:
     def words(data: xr.Dataset) -> str:
         axes = plot.draw(data).get_axes()
         (ax,) = (a for a in axes if a.get_ylabel() == "along the lumen [mm]")
         return " ".join(text.get_text() for text in ax.texts)
 
     data = made(info())
+    data["lumen_branch"] = (
+        "centreline_point",
+        np.arange(data.sizes["centreline_point"]) % branches,
+    )
     assert words(data) == "dashed: insertion"
     data["lumen_force"] = 0.9 * data["lumen_force"]
-    assert "not shown: what presses" in words(data)
+    assert f"not shown: what presses\n{where}" in words(data)
     data["lumen_force"] = 0.0 * data["lumen_force"]
-    assert words(data) == "all in other branches"
+    assert words(data) == f"all {where}"
     data["wall_force"] = 0.0 * data["wall_force"]
     assert words(data) == "nothing touches the wall"
 

@@ -136,6 +136,9 @@ def test_a_free_tip_does_not_hide_what_presses_behind_it(compared: Path) -> None
     assert rows["tip contact-free"] == "yes, at every step"
     said = "no, though its tip is: up to 96 mN in all, 40 mN on 5.13 mm"
     assert rows["wire contact-free"] == said
+    data["wall_force"][-1], data["patch_force"][-1] = 2.03, 0.201  # a stiff wire's
+    rows = rows_in("\n".join(lines(Result(data), steered=True)))
+    assert "up to 2.03 N in all, 201 mN on" in rows["wire contact-free"]
 
 
 def test_comparison_needs_steering(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -202,7 +205,7 @@ def test_replay_in_another_field(compared: Path, folder: Path) -> None:
             "Input --resample needs a unit of length such as '5 mm'; received '2 s', which is a "
             "time.\n",
         ),
-        (("OUT", "--scale", "nan"), "Input scale of replayed must be a finite number; "),
+        (("OUT", "--scale", "nan"), "Input scale of a replay must be a finite number; "),
         (("OUT", "--set", "wire.radius=4 mm"), "Input wire.radius must be smaller than "),
     ],
     ids=["nothing", "resample", "scale", "scenario"],

@@ -5,8 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import magwire as mw
+from magwire.actuate import Helmholtz, Pair, Pose
 from magwire.engine import Feed
 from magwire.navigate import Prescribed
+from magwire.navigate.allocation import Allocated, Objective
 from magwire.navigate.stable import StableNavigator
 from magwire.scenario import schedule_of
 from magwire.wire import Wire
@@ -50,3 +53,19 @@ def test_nobody_compares_without_a_model() -> None:
     for result in (passive, blind):
         assert np.isnan(result.tip_departure).all()
         assert np.isnan(result.largest_tip_departure)
+
+
+@pytest.mark.parametrize("objective", ["power", "field"])
+def test_in_coils_the_model_is_asked_in_the_currents_that_flow(objective: Objective) -> None:
+    """Not in the weakest that they may be, nor, past the path's end, where the plan has ended."""
+    pairs = tuple(Pair(axis, 0.15, 300.0, max_current=60.0) for axis in "xyz")
+    coils = Helmholtz(pairs=pairs, pose=Pose(translation=(0.02, 0.0, 0.0)))
+    lumen = mw.Lumen.through([[0, 0, 0], [10e-3, 0, 0], [20e-3, 3e-3, 0], [30e-3, 10e-3, 0]], 3e-3)
+    sim = mw.Simulation(paper_wire(), lumen, actuator=coils)
+    steering = Allocated(mw.TipNavigator(mw.Demands(tip_clearance=0.5)), objective)
+    result = sim.run(Feed(1e-3, lumen.length + 4e-3), steering, motion="quasi-static")
+    assert result.status == "complete"
+    known = np.isfinite(result.tip_departure)
+    assert known.sum() > 40
+    assert not known[-1]
+    assert result.largest_tip_departure < 1e-5 * L

@@ -111,7 +111,7 @@ def test_an_unstable_equilibrium_ends_the_run() -> None:
     assert not result.stable[-1]
     assert result.message == (
         "The equilibrium at 24.5 mm of feed is unstable: a wire leaves it, and quasi-static motion "
-        "does not tell where to."
+        "does not tell where to; dynamic motion does."
     )
     assert not sim.equilibrium(0.0245, start=sim.equilibrium(0.024)).stable
     assert sim.equilibrium(0.024).stable

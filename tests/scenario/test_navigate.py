@@ -199,7 +199,7 @@ def test_replay_scales_and_resamples() -> None:
     rows = np.array(scenario.navigate.table)
     np.testing.assert_allclose(rows[:, 0], [0.0, 1e-3, 2e-3], atol=1e-15)
     np.testing.assert_allclose(rows[:, 2], [0.0, 1.5e-3, 3e-3], atol=1e-12)
-    with pytest.raises(InputError, match="Input resample of replayed must be positive"):
+    with pytest.raises(InputError, match="Input resample of a replay must be positive"):
         replayed(result, resample=0.0)
 
 

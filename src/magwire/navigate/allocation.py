@@ -270,6 +270,16 @@ class AllocatingNavigator:
         poses = np.array([place.pose for place in places])
         return InputSchedule(feeds, poses, self._system.input_names)
 
+    def _tip(self) -> Array | None:
+        """The model's tip in the inputs that were found, not in the weakest that they may be."""
+        plant = self._plant
+        start = plant.snapshot()
+        plant.inputs = self._last
+        settled = plant.settle(self._system.step_limits())[0] is Status.CONVERGED
+        tip = plant.observe().tip
+        plant.restore(start)
+        return tip if settled else None
+
     def _follow(self, feed: float, inputs: Array) -> bool:
         """Bring the model to a feed and inputs by equilibria; whether they were found."""
         plant = self._plant
@@ -380,9 +390,8 @@ class AllocatingNavigator:
         """Where the tip should be at a feed [m], shape (3,) [m]; None if that is not known."""
         if self._arm is not None:
             return self._arm.expected_tip(feed)
-        if abs(feed - self._feed) < CLOSE and self._direct is not None:
-            here: Array = self._plant.observe().tip
-            return here
+        if abs(feed - self._plant.feed) < CLOSE and self._direct is not None:
+            return self._tip()
         known = getattr(self.navigator, "expected_tip", None)
         tip: Array | None = None if known is None else known(feed)
         return tip

@@ -31,7 +31,7 @@ OUTSIDE = (
 )
 UNSTABLE = (
     "The equilibrium at {:.4g} mm of feed is unstable: a wire leaves it, and quasi-static motion "
-    "does not tell where to."
+    "does not tell where to; dynamic motion does."
 )
 
 

@@ -164,7 +164,8 @@ def _draw_shapes(panel: Any, data: xr.Dataset) -> None:
     colours = ScalarMappable(Normalize(0.0, float(push.max(initial=0.0)) or 1.0), style.PUSH)
     bar = panel.colorbar(colours, ax=ax, orientation="horizontal", shrink=0.62, aspect=34, pad=0.02)
     bar.outline.set_visible(False)
-    bar.set_ticks([round(float(push[k]), 3) for k in shapes.snapshots(data)])
+    shown = [float(push[k]) for k in shapes.snapshots(data)]
+    bar.set_ticks(shown, labels=[f"{x:.2g}" for x in shown])  # longer ones run together
     bar.ax.tick_params(length=0.0)
     bar.set_label(curves.PUSH_LABEL)
 

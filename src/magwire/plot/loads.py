@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 COLUMNS = 240
 """Columns of a heat map at most."""
 ELSEWHERE = 0.02
-"""Part of the wall's force in other branches that is worth a word; sums are rounded to less."""
+"""Part of the wall's force off the path that is worth a word; sums are rounded to less."""
 CURVES = (
     ("wall_force", "wire", style.CLEARANCE, 2.4),
     ("push_force", "push", style.COMPONENTS[2], 1.3),
@@ -61,19 +61,25 @@ def draw_map(ax: Axes, data: xr.Dataset, largest: float) -> Any:
     )  # fmt: skip
     if not np.any(values > 0.0):
         touches = bool(np.any(data["wall_force"].values > 0.0))
-        note(ax, "all in other branches" if touches else "nothing touches the wall")
+        note(ax, f"all {_off_path(data)}" if touches else "nothing touches the wall")
         return image
     fed = 1e3 * float(data.attrs["length_scale"])
     ax.plot([0.0, last], [0.0, fed * last], color=style.MUTED, linewidth=0.7, dashes=(4, 3))
     ax.set_ylim(0.0, end)
     words = "dashed: insertion"
     if _elsewhere(data) > ELSEWHERE:
-        words += "\nnot shown: what presses\nin other branches"
+        words += f"\nnot shown: what presses\n{_off_path(data)}"
     ax.text(
         0.04, 0.95, words, transform=ax.transAxes, va="top",
         color=style.MUTED, fontsize=6.5,
     )  # fmt: skip
     return image
+
+
+def _off_path(data: xr.Dataset) -> str:
+    """Where what is not shown presses: a single tube has no other branches, but a rim."""
+    tree = len(np.unique(data["lumen_branch"].values)) > 1
+    return "in other branches" if tree else "off the path"
 
 
 def _elsewhere(data: xr.Dataset) -> float:

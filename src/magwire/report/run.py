@@ -76,8 +76,8 @@ def gains(steered: Result, passive: Result) -> list[str]:
     """
 
     def change(name: str) -> str:
-        before, after = (1e3 * float(getattr(run, name)) for run in (passive, steered))
-        return f"{before:.3g} mN to " + (f"{after:.3g} mN" if after else "none")
+        before, after = (float(getattr(run, name)) for run in (passive, steered))
+        return f"{_brief(before)} to " + (_brief(after) if after else "none")
 
     fed = [largest(run.held, lambda feed: feed, "feed") for run in (steered, passive)]
     far = f"; over {1e3 * fed[0]:.4g} mm of {1e3 * fed[1]:.4g}" if fed[0] < fed[1] else ""
@@ -157,8 +157,13 @@ def _wire_free(result: Result) -> str:
     if result.wire_contact_free:
         return "yes, at every step"
     free = "no, though its tip is" if result.tip_contact_free else "no"
-    total, patch = 1e3 * result.max_wall_force, 1e3 * result.max_patch_force
-    return f"{free}: up to {total:.3g} mN in all, {patch:.3g} mN on {_patch(result)}"
+    total, patch = _brief(result.max_wall_force), _brief(result.max_patch_force)
+    return f"{free}: up to {total} in all, {patch} on {_patch(result)}"
+
+
+def _brief(newtons: float) -> str:
+    """A force to the digits that matter: in mN, as soft wires have it, or in N if it is larger."""
+    return f"{newtons:.3g} N" if abs(newtons) >= 1.0 else f"{1e3 * newtons:.3g} mN"
 
 
 def _patch(result: Result) -> str:

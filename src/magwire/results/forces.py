@@ -201,8 +201,8 @@ def contact_length(layout: Layout, density: Array) -> Array:
 def per_way(layout: Layout, position: Array, force: Array) -> Array:
     """Force per length of the path at ``arc``, smoothed by a hat, shape (t, bins) [N/m].
 
-    A node counts where the path is nearest to it. What presses in another branch is left out. The
-    hat is mirrored at the ends of the path.
+    A node counts where the path is nearest to it. What presses in another branch, or past
+    the outlet, is left out. The hat is mirrored at the ends of the path.
     """
     arc, records = layout.arc, len(force)
     found = np.zeros((records, len(arc)))

@@ -51,12 +51,12 @@ def replayed(
     """
     if not result.scenario:
         raise InputError(
-            "Input result of replayed must have a scenario; received one of a run that was set up "
-            "in Python."
+            "Input result of a replay must have a scenario; received one of a run that was set up "
+            "in Python; run it again there, with mw.Prescribed."
         )
-    finite("replayed", "scale", scale)
+    finite("a replay", "scale", scale)
     if resample is not None:
-        positive("replayed", "resample", resample, "m")
+        positive("a replay", "resample", resample, "m")
     whole = parse(result.scenario, source="of the result")  # a file may be damaged
     raw = parse_toml(result.scenario)
     if isinstance(whole.navigate, TimedSteering):
