@@ -175,12 +175,11 @@ class Friction(NamedTuple):
 class Bed(NamedTuple):
     """Elastic foundation of the wall; see ``wall.foundation``.
 
-    nodes [N+1], edges [N]: the barrier's stiffness over the foundation's, at the nodes and at the
-    points between them; deepest: how far the wall may be pressed in.
+    ratio [N+1]: the barrier's stiffness over the foundation's at the nodes, between which it is the
+    mean of theirs; deepest: how far the wall may be pressed in. A rigid wall has zeros.
     """
 
-    nodes: Array
-    edges: Array
+    ratio: Array
     deepest: float
 
 
@@ -200,8 +199,8 @@ class Wall(NamedTuple):
     easy: Array
     between: Between
     tube: Tube
+    bed: Bed
     friction: tuple[()] | tuple[Friction]
-    bed: tuple[()] | tuple[Bed] = ()
 
 
 class State(NamedTuple):
