@@ -113,7 +113,8 @@ class Session:
         Raises
         ------
         InputError
-            If a value is not finite, the duration is not positive, or the recording has ended.
+            If a value is not finite, the duration is not positive, the inputs are not as many as
+            the actuator has, or the recording has ended.
         ConvergenceError
             If a time step fails; the wire is as it was before that step.
         NavigationError
@@ -139,6 +140,8 @@ class Session:
             raise
         if inputs is None and self.assist is not None:
             inputs = self.assist.inputs(feed, feed_speed)
+        if inputs is not None and getattr(inputs, "shape", None) != given.shape:
+            inputs = array("Command", "inputs", inputs, given.shape)  # none is spread over all
         given[:] = plant.state.inputs if inputs is None else inputs
         if not math.isfinite(feed_speed + twist_rate + sum(given.tolist())):
             Command(feed_speed, twist_rate, given)  # says which it is
