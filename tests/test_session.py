@@ -64,7 +64,9 @@ def test_an_observation_is_what_a_record_says() -> None:
     assert wire.result.status == "complete"
 
 
-@pytest.mark.parametrize("inputs", [0.01, [0.01], [0.0, 0.0, 0.0, 0.0], "x", np.zeros((3, 1))])
+@pytest.mark.parametrize(
+    "inputs", [0.01, [0.01], [0.0, 0.0, 0.0, 0.0], [[0.0], [0.0, 0.01]], "x", np.zeros((3, 1))]
+)
 def test_a_step_takes_as_many_inputs_as_there_are(inputs: object) -> None:
     with half_circle().session() as wire:
         with pytest.raises(mw.InputError, match="Input inputs of Command must"):
