@@ -64,6 +64,23 @@ def test_an_observation_is_what_a_record_says() -> None:
     assert wire.result.status == "complete"
 
 
+@pytest.mark.parametrize(
+    "inputs", [0.01, [0.01], [0.0, 0.0, 0.0, 0.0], [[0.0], [0.0, 0.01]], "x", np.zeros((3, 1))]
+)
+def test_a_step_takes_as_many_inputs_as_there_are(inputs: object) -> None:
+    with half_circle().session() as wire:
+        with pytest.raises(mw.InputError, match="Input inputs of Command must"):
+            wire.step(feed_speed=1e-3, inputs=inputs)  # type: ignore[arg-type]
+        assert wire.observe().feed == 0.0
+        wire.step(feed_speed=1e-3, inputs=[0.0, 0.01, 0.0])
+
+
+def test_a_watcher_that_is_none_is_refused() -> None:
+    run = half_circle()
+    with pytest.raises(mw.InputError, match=r"Input watch of Simulation\.run must be"):
+        run.run(mw.Feed(1e-3, 0.002), watch=[3])  # type: ignore[list-item]
+
+
 def test_a_result_is_there_when_the_session_has_ended() -> None:
     with half_circle().session(record_every=0.1) as wire:
         wire.step(feed_speed=1e-3, duration=0.1)

@@ -113,7 +113,8 @@ class Session:
         Raises
         ------
         InputError
-            If a value is not finite, the duration is not positive, or the recording has ended.
+            If a value is not finite, the duration is not positive, the inputs are not as many as
+            the actuator has, or the recording has ended.
         ConvergenceError
             If a time step fails; the wire is as it was before that step.
         NavigationError
@@ -139,7 +140,7 @@ class Session:
             raise
         if inputs is None and self.assist is not None:
             inputs = self.assist.inputs(feed, feed_speed)
-        given[:] = plant.state.inputs if inputs is None else inputs
+        given[:] = plant.state.inputs if inputs is None else _as_many(inputs, given.shape)
         if not math.isfinite(feed_speed + twist_rate + sum(given.tolist())):
             Command(feed_speed, twist_rate, given)  # says which it is
         if not plant.step(feed, twist, dt, inertia=self._inertia):
@@ -339,3 +340,12 @@ class Session:
                 "statement."
             )
         return self._recording[0].result()
+
+
+def _as_many(inputs: ArrayLike, shape: tuple[int, ...]) -> ArrayLike:
+    """Inputs of a shape, refused with any other: one number would be spread over all of them."""
+    try:
+        fits = np.shape(inputs) == shape
+    except ValueError:  # rows of several lengths
+        fits = False
+    return inputs if fits else array("Command", "inputs", inputs, shape)

@@ -18,7 +18,7 @@ from magwire.engine.plant import Plant
 from magwire.engine.record import Motion, RunInfo
 from magwire.engine.statics import Equilibrium, find_equilibrium
 from magwire.engine.system import Release, System
-from magwire.errors import InputError, array, instance, offering, one_of, positive
+from magwire.errors import InputError, array, instance, offering, one_of, positive, refuse
 from magwire.field import FieldSource, UniformField, as_field
 from magwire.interrupt import held_back_interrupt
 from magwire.lumen import Lumen
@@ -222,7 +222,7 @@ class Simulation:
         watchers: list[Watcher] = [inside] if inertia else [inside, stable]
         if until is not None:
             watchers.append(Until(until, self.tip_arc))
-        watchers += [watch] if callable(watch) else watch or ()
+        watchers += _watching(watch)
         info = self.info(title=title, scenario=scenario, motion=motion)
         info = replace(info, hardware="" if hardware is None else str(hardware))
         with Writer(info, out) as writer, held_back_interrupt() as strike:
@@ -430,3 +430,18 @@ def _steps(length: float, feed: Feed, time_step: float) -> int:
     """How many time steps a length of feed takes, at the course's fastest speed."""
     interval = length / feed.fastest if feed.fastest > 0.0 else feed.duration
     return max(1, round(interval / time_step))
+
+
+def _watching(watch: Watcher | Sequence[Watcher] | None) -> list[Watcher]:
+    """Those that watch a run.
+
+    Raises
+    ------
+    InputError
+        If one of them cannot be called.
+    """
+    found = [watch] if callable(watch) else list(watch or ())
+    for one in found:
+        if not callable(one):
+            raise refuse("Simulation.run", "watch", "functions of a record, or a list of them", one)
+    return found

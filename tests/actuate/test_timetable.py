@@ -213,6 +213,11 @@ def test_outside_of_the_calibrated_box_and_too_near() -> None:
     assert near.figure == pytest.approx(expected, abs=1e-9)
 
 
+def test_samples_beyond_any_use_are_refused() -> None:
+    with pytest.raises(InputError, match=r"rate of retime must be at most .* 1/s for a plan of"):
+        retime(plan(platform(), WAVE), platform(), rate=1e9)
+
+
 def test_the_inputs_must_be_those_of_the_actuator() -> None:
     made = plan(platform(), WAVE)
     with pytest.raises(InputError, match=r"Ix \[A\], Iy \[A\], Iz \[A\]; received Bx \[T\]"):

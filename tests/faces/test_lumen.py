@@ -114,7 +114,14 @@ def test_a_converted_table_is_part_of_a_scenario(file: Path, tmp_path: Path) -> 
         (["convert", "{file}", "{file}", "--units", "mm"], "exists already; use --force"),
         (["convert", "{file}", "{folder}/a.nc"], "does not state them; its numbers look like"),
         (["inspect", "{file}", "--wire", "1 s"], "--wire needs a unit of diameter"),
+        (["inspect", "{file}", "--wire", "-1 mm"], "is written --wire='-1 mm'."),
+        (
+            ["inspect", "{file}", "--units", "mm", "--wire=-1 mm"],
+            "--wire of magwire lumen inspect must be positive",
+        ),
+        (["inspect", "{file}", "--units", "mm", "--extend", "1e6"], "must be between 0 and 100"),
         (["inspect", "{file}", "--picture", "{folder}/a.xyz"], "cannot be written: "),
+        (["inspect", "{file}", "--picture", "{folder}/no/a.png"], "/a.png' cannot be written: no"),
         (["convert", "{file}", "{folder}/no/a.nc", "--units", "mm"], "cannot be written: no such"),
     ],
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -96,6 +97,9 @@ def test_units_are_asked_for_and_guessed(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"look like 'cm'"):
         Lumen.read(path)
     assert Lumen.read(path, "cm").length == pytest.approx(1e-3 * LENGTHS[0], rel=1e-3)
+    assert not any("People's" in note for note in Vessel.read(path, "cm").notes)
+    said = r"^It is a vessel [\d.]+ m long with radius .* mm\. People's are 8 mm to 1\.5 m long"
+    assert any(re.search(said, note) for note in Vessel.read(path, "m").notes)
     with pytest.raises(InputError, match="must be 'm' or 'dm'"):
         Lumen.read(path, "cmm")
 

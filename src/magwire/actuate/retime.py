@@ -19,6 +19,7 @@ from magwire.errors import InputError, positive
 
 Array = NDArray[np.float64]
 HALVINGS = 30
+MOST = 2_000_000  # samples of a plan: it takes a minute, and its table half a gigabyte
 STALLED = 1e-6
 """Part of a sample below which a plan does not get on: what it asks for can never be reached."""
 
@@ -45,7 +46,8 @@ def retime(
     Raises
     ------
     InputError
-        If the actuator has other inputs, or an input can never be held or reached.
+        If the actuator has other inputs, an input can never be held or reached, or there would be
+        millions of samples.
     """
     names = tuple(one.name for one in actuator.inputs)
     if names != plan.names:
@@ -54,6 +56,12 @@ def retime(
             f"received {', '.join(names) or 'none'}."
         )
     dt = 1.0 / positive("retime", "rate", rate, "1/s")
+    lasts = float(plan.time[-1] - plan.time[0])
+    if lasts * rate > MOST:
+        raise InputError(
+            f"Input rate of retime must be at most {MOST / lasts:.4g} 1/s for a plan of "
+            f"{lasts:.4g} s; received {rate:g} 1/s."
+        )
     course = _led_in(plan, actuator, dt)
     walk = _Walk(course, Pace.of(actuator), dt, advancer)
     walk.go()

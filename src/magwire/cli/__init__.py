@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import gc
+import itertools
+import re
 import sys
 from collections.abc import Sequence
 
@@ -37,6 +39,8 @@ __all__ = ["app", "main"]
 RESTING = 100_000
 """New objects before the garbage collector looks: what a start imports stays, and looking through
 it again and again takes an eighth of the time to the first step."""
+
+MINUS = re.compile(r"-\.?\d")
 
 app = App(
     name="magwire",
@@ -97,8 +101,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except Terminated as told:
         complain(str(told))
         return told.status
-    except (MagwireError, CycloptsError) as error:
+    except MagwireError as error:
         complain(str(error))
+        return 1
+    except CycloptsError as error:
+        complain(f"{error}{_about_minus(words)}")
         return 1
     except BrokenPipeError:  # a reader such as head has seen enough
         sys.stderr.close()
@@ -108,3 +115,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         complain(f"A file{where} cannot be used: {(error.strerror or str(error)).lower()}.")
         return 1
     return status if isinstance(status, int) else 0
+
+
+def _about_minus(words: Sequence[str]) -> str:
+    """How a value that looks like an option, by its minus sign, is written; "" if there is none."""
+    for option, value in itertools.pairwise(words):
+        if option.startswith("--") and MINUS.match(value):
+            return f" What begins with a minus sign is written {option}='{value}'."
+    return ""

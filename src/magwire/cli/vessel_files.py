@@ -80,7 +80,11 @@ def draw(vessel: Vessel, path: Path, wire: str | None) -> None:
     try:
         trunks = [(balls[:, :3], balls[:, 3]) for balls in vessel.trunks]
         vessels.save(tubes, path, radius, vessel.surface, trunks=trunks)
-    except (OSError, ValueError) as error:
+    except OSError as error:
+        raise CommandError(
+            f"Picture '{path}' cannot be written: {(error.strerror or str(error)).lower()}."
+        ) from None
+    except ValueError as error:
         why = str(error).splitlines()[0].rstrip(".")
         raise CommandError(f"Picture '{path}' cannot be written: {why}.") from None
 

@@ -299,9 +299,11 @@ class Lumen:
         target
             Outlet to go to: its name, the number of its end from one, or a point [m]; the first
             one if left out.
+        wall
+            What a wire feels: balls around the centrelines, or the triangles of the file's surface.
         options
             The others of ``Vessel.read``: ``entrance``, ``radius``, ``scale``, ``rotation``,
-            ``translation`` and ``smoothing``.
+            ``translation``, ``smoothing``, ``extend`` and ``cut``.
 
         Raises
         ------

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
-from magwire.errors import MagwireError
+from magwire.errors import MagwireError, positive
 from magwire.units import DIMENSIONS, parse, show
 from magwire.vessel import Source, Vessel, survey
 from magwire.vessel.files import Drawing, load
@@ -152,10 +152,15 @@ def _columns(rows: Sequence[Sequence[str]], sides: str) -> Iterator[str]:
         yield "  ".join(f"{cell:{side}{width}}" for cell, side, width in cells).rstrip()
 
 
+def _positive(text: str | None, dimension: str, option: str) -> float:
+    """A positive quantity of an option."""
+    return positive("magwire lumen inspect", option, parse(text, dimension, option))
+
+
 def _verdict(course: survey.Course, wire: dict[str, str | None]) -> str:
-    radius = 0.5 * parse(wire["diameter"], "diameter", "--wire")
+    radius = 0.5 * _positive(wire["diameter"], "diameter", "--wire")
     modulus = wire["modulus"]
-    young = 0.0 if modulus is None else parse(modulus, "pressure", "--youngs-modulus")
+    young = 0.0 if modulus is None else _positive(modulus, "pressure", "--youngs-modulus")
     found = survey.reach(course, radius, young * math.pi * radius**4 / 4.0)
     if not found.fits:
         return f"no, {show(course.passable * 2.0, 'length')} wide at the narrowest"
@@ -163,7 +168,7 @@ def _verdict(course: survey.Course, wire: dict[str, str | None]) -> str:
         return "yes"
     needs = f"about {show(found.force, 'force')} to bend it"
     limit = wire["force"]
-    if limit is not None and found.force > parse(limit, "force", "--max-force"):
+    if limit is not None and found.force > _positive(limit, "force", "--max-force"):
         return f"no, {needs}"
     return f"yes, {needs}"
 

@@ -44,6 +44,8 @@ def clean(line: Line, number: int) -> Cleaned:
     """
     points, radius = line.points, line.radius
     good = np.isfinite(radius) & (radius > 0.0) & np.isfinite(points).all(axis=1)
+    if len(good) == 1:
+        raise FileFaultError(f"has only one point in line {number}")
     if good.sum() < max(2.0, 0.9 * len(good)):
         raise FileFaultError(
             f"has no positive radius at {len(good) - int(good.sum())} of {len(good)} points of "

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
@@ -13,9 +14,9 @@ from scipy.spatial.transform import Rotation
 
 from magwire.errors import InputError, array, one_of
 from magwire.units import DIMENSIONS
-from magwire.vessel.files import Drawing
+from magwire.vessel.files import Drawing, Line, Surface
 from magwire.vessel.files.drawing import Array
-from magwire.vessel.words import MM, long
+from magwire.vessel.words import between, long
 
 LENGTHS = (8e-3, 1.5)
 RADII = (0.15e-3, 20e-3)
@@ -69,7 +70,7 @@ class Size(NamedTuple):
     def words(self) -> str:
         """A vessel of this size, in words."""
         low, high = self.radii
-        wide = "" if np.isnan(low) else f" with radius {MM * low:.3g} to {long(high)}"
+        wide = "" if np.isnan(low) else f" with radius {between(low, high)}"
         return f"a vessel {long(self.length)} long{wide}"
 
     @property
@@ -87,21 +88,38 @@ def sizes(drawing: Drawing) -> list[Size]:
     what is nearest to a length of 0.2 m and a radius of 2.5 mm is the likeliest. Where none fits,
     the likeliest is named.
     """
-    places = [line.points for line in drawing.lines]
-    lengths = [float(np.linalg.norm(np.diff(p, axis=0), axis=1).sum()) for p in places]
-    if drawing.surface is not None:
-        places.append(drawing.surface.points)
-    lengths.append(float(np.linalg.norm(np.ptp(np.concatenate(places), axis=0))))
-    values = np.concatenate([np.zeros(0), *(line.radius for line in drawing.lines)])
-    values = values[np.isfinite(values) & (values > 0.0)]
-    radii = tuple(np.percentile(values, [5.0, 95.0])) if values.size else (np.nan, np.nan)
+    length, radii = _extent(drawing.lines, drawing.surface)
     known = DIMENSIONS["length"].units
     found = []
     for unit in ("um", "mm", "cm", "m"):
         stated = known.get(drawing.radius_unit or "", known[unit])
-        found.append(Size(unit, known[unit] * max(lengths), (stated * radii[0], stated * radii[1])))
+        found.append(Size(unit, known[unit] * length, (stated * radii[0], stated * radii[1])))
     found.sort(key=lambda size: (size.unit != drawing.radius_unit, _unusual(size)))
     return [size for size in found if size.plausible] or found[:1]
+
+
+def unlike(lines: Sequence[Line], surface: Surface | None) -> tuple[str, ...]:
+    """A note on a vessel, in metres, of a size that people's are not: a unit may be wrong."""
+    size = Size("m", *_extent(lines, surface))
+    if size.plausible:
+        return ()
+    return (
+        f"It is {size.words}. People's are {between(*LENGTHS)} long with radius "
+        f"{between(*RADII)}: is its unit the right one?",
+    )
+
+
+def _extent(lines: Sequence[Line], surface: Surface | None) -> tuple[float, tuple[float, float]]:
+    """The length, and the smallest and largest radius but for a twentieth; NaN without radii."""
+    places = [line.points for line in lines]
+    lengths = [float(np.linalg.norm(np.diff(p, axis=0), axis=1).sum()) for p in places]
+    if surface is not None:
+        places.append(surface.points)
+    lengths.append(float(np.linalg.norm(np.ptp(np.concatenate(places), axis=0))))
+    values = np.concatenate([np.zeros(0), *(line.radius for line in lines)])
+    values = values[np.isfinite(values) & (values > 0.0)]
+    low, high = np.percentile(values, [5.0, 95.0]) if values.size else (np.nan, np.nan)
+    return max(lengths), (float(low), float(high))
 
 
 def _unusual(size: Size) -> float:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from magwire.errors import array, nonnegative, one_of, positive, refuse
+from magwire.errors import array, nonnegative, one_of, positive, refuse, within
 from magwire.lumen.names import meant
 from magwire.units import DIMENSIONS
 from magwire.vessel.balls import Original
@@ -19,13 +19,14 @@ from magwire.vessel.files.drawing import NO_WAY, Array, FileFaultError
 from magwire.vessel.files.drawing import refuse as refuse_file
 from magwire.vessel.mesh import End
 from magwire.vessel.network import Network
-from magwire.vessel.placement import OWNER, Placement, unit_factor
+from magwire.vessel.placement import OWNER, Placement, unit_factor, unlike
 from magwire.vessel.skin import Skin
 from magwire.vessel.vmtk import hints
 from magwire.vessel.ways import Ways, ways
 from magwire.vessel.words import place
 
 SMOOTHING = 0.5  # in radii
+LONGEST = 100.0  # radii by which lines are made longer at most
 NEARLY = 0.9  # radius of an end that may be the entrance as well, over that of the widest one
 
 Spot = str | int | Sequence[float]
@@ -87,7 +88,7 @@ def found(source: Source, units: str | None, options: Options) -> Found:
         If it cannot be used: in one sentence, why.
     """
     nonnegative(OWNER, "smoothing", options.smoothing)
-    nonnegative(OWNER, "extend", options.extend)
+    within(OWNER, "extend", options.extend, low=0.0, high=LONGEST)
     scale = positive(OWNER, "scale", options.scale)
     name = options.radius if isinstance(options.radius, str) else None
     constant = None
@@ -140,6 +141,7 @@ def _placed(
         lines, named = list(extracted.lines), extracted.ends
         skin, closed = extracted.wall, extracted.closed
         notes = (*notes, *extracted.notes)
+    notes = (*notes, *unlike(lines, surface))
     known = options.entrance is None or isinstance(options.entrance, str)
     if drawing.entrance and known and options.entrance in (None, drawing.entrance):
         ends = {x.name: x.points[-1] for x in lines if x.name != NO_WAY}

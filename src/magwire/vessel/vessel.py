@@ -126,7 +126,7 @@ class Vessel:
             Length in radii of the lumen; waves shorter than 2 pi times it are taken out. It is
             raised, up to fourfold, around bends that are too sharp for the lumen's width.
         extend
-            By how many radii lines are made longer at their open ends.
+            By how many radii lines are made longer at their open ends, up to 100.
         cut
             Points at which loops are opened, shape (n, 3) [m]; a loop without one is opened where
             it is farthest from the entrance.

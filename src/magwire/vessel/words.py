@@ -9,8 +9,14 @@ MM = 1e3
 
 
 def long(metres: float) -> str:
-    """A length [m] in millimetres."""
-    return f"{MM * metres:.3g} mm"
+    """A length [m] in millimetres, or in metres from one on."""
+    return f"{metres:.3g} m" if metres >= 1.0 else f"{MM * metres:.3g} mm"
+
+
+def between(low: float, high: float) -> str:
+    """A range of lengths [m]; the unit is said once if it is the same."""
+    a, b = long(low), long(high)
+    return f"{a.split()[0] if a.split()[1] == b.split()[1] else a} to {b}"
 
 
 def place(point: ArrayLike) -> str:
