@@ -160,6 +160,18 @@ def test_sources_of_higher_order(tmp_path: Path) -> None:
     np.testing.assert_allclose(b[0], -3.0 * np.array(slope), rtol=1e-8)
 
 
+def test_braces_say_the_same_as_lines(tmp_path: Path) -> None:
+    """Numbers such as 1e-05 included, which YAML 1.1 takes for texts."""
+    braces = """{Coil_List: [Coil_0], Coil_0: {Source_List: [Src_0, Src_1],
+      Src_0: {A_Coeff: , B_Coeff: [1e-04], Source_Position: [0, 0, 1e-1],
+        Source_Direction: [0.0, 0.0, 1.0000000005]},
+      Src_1: {A_Coeff: [1e-3], B_Coeff: [1e-05, 2E-7], Source_Position: [0.0, 0.2, 0.0],
+        Source_Direction: [1.0, 0.0, 0.0]}}, System_Name: 'two sources',
+      Workspace_Dimensions: [[-0.05, 0.05], [-0.05, 0.05], [-0.02, 0.05]]}"""
+    lines = MPEM.read(write(tmp_path, "lines.yaml", CALIBRATION))
+    assert MPEM.read(write(tmp_path, "braces.yaml", braces)).calibration == lines.calibration
+
+
 def test_an_offset_is_a_constant_and_no_coil(tmp_path: Path) -> None:
     bare = MPEM.read(write(tmp_path, "a.yaml", CALIBRATION))
     with_offset = MPEM.read(write(tmp_path, "b.yaml", CALIBRATION + OFFSET))
@@ -222,10 +234,17 @@ def faulty(text: str, old: str, new: str) -> str:
             "must have the lower end first in Workspace_Dimensions: x; received 0.05 and -0.05",
         ),
         ("[1e-3]", "[one]", "must have finite numbers in Coil_0: Src_1: A_Coeff; received 'one'"),
-        ("Src_1]\n", "Src_1\n", "line 5 has a list that does not end on it or is nested"),
+        ("Src_1]\n", "Src_1\n", "cannot be read: line 6: expected ',' or ']', but got"),
         ("  Src_1:\n", "  Src_0:\n", "line 14 gives 'Src_0' a second time"),
-        ("  Src_1:\n", "\tSrc_1:\n", "line 14 is indented by a tabulator, not by blanks"),
-        ("  Src_1:\n", "  Src_1: &a\n", "line 14 uses '&', which is not read"),
+        ("  Src_1:\n", "\tSrc_1:\n", "line 14: found character '\\t' that cannot start any token"),
+        ("  Src_1:\n", "  Src_1: &a\n", "line 14 uses an anchor, which is not read"),
+        (
+            "  Src_1:\n",
+            "  Src_1: !!set\n",
+            "line 14 uses the tag tag:yaml.org,2002:set, which is not",
+        ),
+        ("System_Name", "---\nSystem_Name", "line 19 begins a second document"),
+        ('"two sources"', "[" * 20, "line 19 is nested more than 16 deep"),
         (CALIBRATION, "", "must be a mapping of keys; received no key"),
     ],
 )

@@ -1,23 +1,25 @@
-"""The part of YAML that calibration files use, read strictly.
+"""Calibration files in YAML, read strictly.
 
-Mappings, sequences, flow sequences of plain values, numbers, texts, null and comments. Anchors,
-tags, block texts and several documents are refused: none has a place in a table of numbers.
+Plain values are what YAML 1.2 says: 1e-05 is a number, which PyYAML by itself takes for a text.
+Anchors, tags and several documents are refused: none has a place in a table of numbers.
 """
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from magwire.errors import InputError
 from magwire.files import read_text
 
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
 Value = None | bool | float | int | str | list["Value"] | dict[str, "Value"]
 
-KEY = re.compile(r"""^("[^"]*"|'[^']*'|[^\s"'\[\]{}#&*!|>%@`,-][^:#]*?)\s*:(?:\s+(.*))?$""")
 DEEPEST = 16
-LONGEST = 100_000
+LONGEST = 1_000_000
 INTEGER = re.compile(r"^[-+]?\d{1,18}$")
 NUMBER = re.compile(r"^[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$")
 SPECIAL = {
@@ -27,12 +29,6 @@ SPECIAL = {
     "-.inf": -float("inf"),
     "nan": float("nan"),
 }
-
-
-class _Line(NamedTuple):
-    number: int
-    indent: int
-    text: str
 
 
 class _FaultError(Exception):
@@ -69,121 +65,68 @@ def read(path: Path, kind: str) -> dict[str, Value]:
 
 def parse(text: str) -> Value:
     """What a text says."""
-    lines: list[_Line] = []
-    for number, raw in enumerate(text.split("\n"), start=1):
-        bare = _without_comment(raw).rstrip()
-        if not bare.strip() or bare.startswith("%"):
-            continue
-        if bare.strip() in ("---", "..."):
-            if lines and bare.startswith("---"):
-                raise _FaultError(f"line {number} begins a second document")
-            continue
-        indent = len(bare) - len(bare.lstrip(" "))
-        if bare[indent] == "\t":
-            raise _FaultError(f"line {number} is indented by a tabulator, not by blanks")
-        lines.append(_Line(number, indent, bare[indent:]))
-    if len(lines) > LONGEST:
-        raise _FaultError(f"it has {len(lines)} lines, {LONGEST} at most are read")
-    if not lines:
-        return None
-    value, rest = _block(lines, 0, lines[0].indent, 0)
-    if rest < len(lines):
-        raise _FaultError(f"line {lines[rest].number} is indented like no line above it")
-    return value
+    import yaml
+
+    if len(text) > LONGEST:
+        raise _FaultError(f"it has {len(text)} characters, {LONGEST} at most are read")
+    events = yaml.parse(text, Loader=yaml.SafeLoader)
+    try:
+        found: Value = None
+        begun = False
+        for event in events:
+            if isinstance(event, yaml.DocumentStartEvent):
+                if begun:
+                    raise _at(event, "begins a second document")
+                begun = True
+                found = _value(next(events), events, 0)
+    except yaml.MarkedYAMLError as error:
+        mark, problem = error.problem_mark or error.context_mark, error.problem or error.context
+        line = "" if mark is None else f"line {mark.line + 1}: "
+        raise _FaultError(f"{line}{problem}") from None
+    except yaml.YAMLError:
+        raise _FaultError("it has characters that no text has") from None
+    return found
 
 
-def _without_comment(line: str) -> str:
-    quote = ""
-    for i, mark in enumerate(line):
-        if quote:
-            quote = "" if mark == quote else quote
-        elif mark in "\"'":
-            quote = mark
-        elif mark == "#" and (i == 0 or line[i - 1] in " \t"):
-            return line[:i]
-    return line
+def _value(event: Any, events: Iterator[Any], depth: int) -> Value:
+    """What begins with an event."""
+    import yaml
 
-
-def _block(lines: list[_Line], at: int, indent: int, depth: int) -> tuple[Value, int]:
-    """What begins at line ``at`` with this indentation, and the line after it."""
     if depth > DEEPEST:
-        raise _FaultError(f"line {lines[at].number} is nested more than {DEEPEST} deep")
-    if _is_item(lines[at]):
-        return _sequence(lines, at, indent, depth)
-    if KEY.match(lines[at].text):
-        return _mapping(lines, at, indent, depth)
-    return _scalar(lines[at].text, lines[at].number), at + 1
-
-
-def _is_item(line: _Line) -> bool:
-    return line.text == "-" or line.text.startswith("- ")
-
-
-def _sequence(lines: list[_Line], at: int, indent: int, depth: int) -> tuple[Value, int]:
-    items: list[Value] = []
-    while at < len(lines) and lines[at].indent == indent and _is_item(lines[at]):
-        line = lines[at]
-        rest = line.text[1:].lstrip()
-        if rest:  # what follows the dash is a block of its own, indented as far as it stands
-            inner = indent + len(line.text) - len(rest)
-            lines[at] = _Line(line.number, inner, rest)
-            value, at = _block(lines, at, inner, depth + 1)
-        else:
-            value, at = _nested(lines, at + 1, indent, depth, items_may_align=False)
-        items.append(value)
-    return items, at
-
-
-def _mapping(lines: list[_Line], at: int, indent: int, depth: int) -> tuple[Value, int]:
+        raise _at(event, f"is nested more than {DEEPEST} deep")
+    if isinstance(event, yaml.AliasEvent) or event.anchor is not None:
+        raise _at(event, "uses an anchor, which is not read")
+    if event.tag is not None:
+        raise _at(event, f"uses the tag {event.tag}, which is not read")
+    if isinstance(event, yaml.ScalarEvent):
+        return _plain(event.value) if event.style is None else str(event.value)
+    if isinstance(event, yaml.SequenceStartEvent):
+        items = _until(yaml.SequenceEndEvent, events)
+        return [_value(item, events, depth + 1) for item in items]
     made: dict[str, Value] = {}
-    while at < len(lines) and lines[at].indent == indent and not _is_item(lines[at]):
-        line = lines[at]
-        match = KEY.match(line.text)
-        if match is None:
-            raise _FaultError(f"line {line.number} is no key with a value")
-        key = match[1].strip("\"'")
-        if key in made:
-            raise _FaultError(f"line {line.number} gives '{key}' a second time")
-        if match[2]:
-            made[key], at = _scalar(match[2], line.number), at + 1
-        else:
-            made[key], at = _nested(lines, at + 1, indent, depth, items_may_align=True)
-    return made, at
+    for key in _until(yaml.MappingEndEvent, events):
+        if not isinstance(key, yaml.ScalarEvent):
+            raise _at(key, "has a key that is no name")
+        if key.value in made:
+            raise _at(key, f"gives '{key.value}' a second time")
+        made[key.value] = _value(next(events), events, depth + 1)
+    return made
 
 
-def _nested(
-    lines: list[_Line], at: int, indent: int, depth: int, *, items_may_align: bool
-) -> tuple[Value, int]:
-    """The block below a key or a dash; null if there is none."""
-    if at < len(lines):
-        deeper = lines[at].indent > indent
-        aligned = items_may_align and lines[at].indent == indent and _is_item(lines[at])
-        if deeper or aligned:
-            return _block(lines, at, lines[at].indent, depth + 1)
-    return None, at
+def _until(end: type, events: Iterator[Any]) -> Iterator[Any]:
+    """Events up to one that ends what they are in."""
+    for event in events:
+        if isinstance(event, end):
+            return
+        yield event
 
 
-def _scalar(text: str, number: int) -> Value:
-    if text[0] == "[":
-        if text[-1] != "]" or "[" in text[1:] or "{" in text:
-            raise _FaultError(f"line {number} has a list that does not end on it or is nested")
-        inner = text[1:-1].strip()
-        return [_scalar(part.strip(), number) if part.strip() else None for part in _split(inner)]
-    if text[0] in "&*!|>{%@`":
-        raise _FaultError(f"line {number} uses '{text[0]}', which is not read")
-    if text[0] in "\"'":
-        if len(text) < 2 or text[-1] != text[0]:
-            raise _FaultError(f"line {number} has a text that does not end on it")
-        return text[1:-1]
-    return _plain(text)
-
-
-def _split(text: str) -> list[str]:
-    return text.split(",") if text else []
+def _at(event: Any, what: str) -> _FaultError:
+    return _FaultError(f"line {event.start_mark.line + 1} {what}")
 
 
 def _plain(text: str) -> Value:
-    if text in ("~", "null", "Null", "NULL"):
+    if text in ("", "~", "null", "Null", "NULL"):
         return None
     if text in ("true", "false"):
         return text == "true"
