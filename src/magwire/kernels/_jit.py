@@ -16,6 +16,7 @@ from numba.core.registry import CPUDispatcher
 
 from magwire.kernels._collector import hold_back
 from magwire.kernels._inner import InnerCache, InnerCompiler
+from magwire.kernels._known import remember_calls
 
 Function = TypeVar("Function", bound=Callable[..., object])
 
@@ -85,6 +86,7 @@ CACHE = _cache_folder()
 if CACHE is not None:
     numba.config.CACHE_DIR = str(CACHE)
 hold_back()
+remember_calls()
 
 
 def compiled_before() -> bool:
