@@ -40,3 +40,21 @@ def test_code_that_is_looked_up_once_serves_all_handles_of_a_kind() -> None:
     assert Handle(Motion(1.0, np.ones((2, 2)))).kind != first.kind
     code = resolved(weigh, first, 1.0)
     assert (code(first, 1.0), code(second, 1.0)) == (2.0, 10.0)
+
+
+@entry
+def read_mixed(handle):
+    """Each part of such a tuple as that below."""
+    flag, (motion, (first, second)), other, count, flags, _, last = parts_of(handle)
+    weights = motion.factor, motion.target[1], float(count), last
+    return (flag, first, second, other, flags[0], flags[1]), weights
+
+
+def test_compiled_code_finds_what_python_laid_out() -> None:
+    """Flags take a byte and numbers eight, with gaps in front of them."""
+    inner = Motion(1.5, np.array([0.0, 2.5])), (False, True)
+    mixed = Handle((True, inner, True, -7, np.array([False, True]), (), 4.5))
+    assert read_mixed(mixed) == (
+        (True, False, True, True, False, True),
+        (1.5, 2.5, -7.0, 4.5),
+    )

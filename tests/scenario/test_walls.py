@@ -44,7 +44,10 @@ def test_walls_are_rigid_and_at_rest_unless_it_is_asked_for() -> None:
     system = built()
     assert system.contact.foundation is None
     assert system.wall_motion == ()
-    assert system.new_wall().bed == system.new_moving() == ()
+    bed = system.new_wall().bed
+    assert bed.deepest == 0.0
+    assert not bed.ratio.any()
+    assert system.new_moving() == ()
 
 
 @pytest.mark.parametrize(

@@ -87,9 +87,6 @@ def _nearer(point: Point, thicker: Array, work: Work) -> Array:
 def _wider(system: System, change: Array) -> Wall:
     """The wall for a wire whose nodes are thicker: more of its foundation bears."""
     wall = system.new_wall()
-    if not wall.bed:
-        return wall
     radius = np.append(system.mesh.radius[0], system.mesh.radius) / system.wire.length
-    nodes = wall.bed[0].nodes * radius / (radius + change)
-    bed = wall.bed[0]._replace(nodes=nodes, edges=0.5 * (nodes[:-1] + nodes[1:]))
-    return wall._replace(bed=(bed,))
+    ratio = wall.bed.ratio * radius / (radius + change)
+    return wall._replace(bed=wall.bed._replace(ratio=ratio))

@@ -24,16 +24,17 @@ from magwire.field import FieldSource
 from magwire.kernels._handle import resolved
 from magwire.kernels.arrays import Field, Mouth, State, Tube
 from magwire.kernels.body import (
+    INPUTS,
     Body,
     Parts,
     Queue,
+    Sight,
     advance,
     look,
     place_wall,
     rest,
     survey,
 )
-from magwire.kernels.glance import GLANCE
 from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.history import copy_state
 from magwire.kernels.march import RETRIES, Tally
@@ -148,12 +149,12 @@ class Plant:
         self._queue = Queue(np.zeros(QUEUE), np.zeros(QUEUE), np.zeros((QUEUE, inputs)))
         self.wanted = self._queue.inputs[0]
         known = self.model, path, system.guide, self.state, self.work, limits, self._tally
-        self._parts = Parts(*known, self._queue, self._sheet)
-        self._body = Body(self._parts)
         self._units = system.scales.length, system.scales.force
-        self._patch = system.patch / system.wire.length
-        self._turn = tuple(system.mesh.rest_turn[-1].tolist())
-        self._seen = np.zeros(GLANCE)
+        self._seen = np.zeros(INPUTS + inputs)
+        patch, turn = system.patch / system.wire.length, tuple(system.mesh.rest_turn[-1].tolist())
+        sight = Sight(self._seen, *self._units, patch, turn)
+        self._parts = Parts(*known, self._queue, self._sheet, sight)
+        self._body = Body(self._parts)
         self._counted = np.zeros(4)
         self._advance = resolved(advance, self._body, 0, 1.0, 1.0, True)
         self._advance(self._body, 0, 1.0, 1.0, True)  # the sources are as the inputs are
@@ -161,7 +162,7 @@ class Plant:
 
     @cached_property
     def _look(self) -> Callable[..., None]:
-        return resolved(look, self._body, *self._units, self._patch, self._turn, self._seen)
+        return resolved(look, self._body)
 
     @cached_property
     def _survey(self) -> Callable[..., None]:
@@ -266,9 +267,9 @@ class Plant:
 
     def _remedy(self) -> str:
         """What to try after a step that failed."""
-        for bed in self._wall.bed:
-            length = self.system.wire.length
-            deep, most = float(self.survey().wall_indentation.max()), bed.deepest * length
+        most = self._wall.bed.deepest * self.system.wire.length
+        if most > 0.0:
+            deep = float(self.survey().wall_indentation.max())
             if deep > DEEP * most:
                 return (
                     f"the wall is pressed in by {1e3 * deep:.3g} mm, and by at most "
@@ -336,11 +337,10 @@ class Plant:
 
     def observe(self) -> Observation:
         """What can be seen of the wire now, without a record of all its nodes."""
-        self._look(self._body, *self._units, self._patch, self._turn, self._seen)
+        self._look(self._body)
         seen = self._seen.copy()
-        feed, twist = self.guided
-        tip, direction, inputs = seen[:3], seen[3:6], self.state.inputs.copy()
-        force, forces, patch, clear = seen[6:].tolist()
+        force, forces, patch, clear, feed, twist = seen[6:INPUTS].tolist()
+        tip, direction, inputs = seen[:3], seen[3:6], seen[INPUTS:]
         return Observation(
             self.time, feed, twist, tip, direction, force, forces, patch, clear, inputs
         )

@@ -403,13 +403,14 @@ class System:
         unit = stiffness / length**4  # of a barrier's stiffness
         edge = float(self.mesh.edge_length.max())
         bed = self._new_bed()
-        made = divide_bed if bed else divide
+        gives = bed.deepest > 0.0
+        made = divide_bed if gives else divide
         between = made(self.firmness, edge, self.bulge, length, self.wire.nodes)
         if between.parts > 1:
             between = between._replace(bulges=self._bulges_by_place)
         elif self.walls.sheet:
             between = between._replace(bulges=NOWHERE)
-        share = between.parts if bed else 1  # of its cell's wall that a node stands for
+        share = between.parts if gives else 1  # of its cell's wall that a node stands for
         return Wall(
             stiffness=self.firmness.stiffness / share / unit,
             gap=self.firmness.activation_gap / length,
@@ -421,15 +422,14 @@ class System:
             bed=bed,
         )
 
-    def _new_bed(self) -> tuple[()] | tuple[Bed]:
-        """The wall's elastic foundation for the kernels, if there is any."""
+    def _new_bed(self) -> Bed:
+        """The wall's elastic foundation for the kernels."""
         if self.contact.foundation is None:
-            return ()
+            return Bed(np.zeros(self.wire.nodes + 1), 0.0)
         width = _ghost(2.0 * self.mesh.radius, 2.0 * float(self.mesh.radius[0]))
         ratio = self.firmness.stiffness / (self.contact.foundation * width)
         room = self.path.narrowest if self.lumen.branches else self.wire.length
-        edges = 0.5 * (ratio[:-1] + ratio[1:])
-        return (Bed(ratio, edges, DEEPEST * room / self.wire.length),)
+        return Bed(ratio, DEEPEST * room / self.wire.length)
 
     def new_moving(self) -> tuple[()] | tuple[Moving]:
         """The wall's motion for the kernels, if there is any, at the start."""

@@ -7,6 +7,7 @@ is counted on the way. Its Python object keeps alive what lies behind it.
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable
 from typing import Any
 
@@ -23,8 +24,6 @@ from numba.extending import (
     typeof_impl,
     unbox,
 )
-
-from magwire.kernels._jit import entry
 
 
 class HandleType(types.Type):  # type: ignore[misc]
@@ -58,7 +57,26 @@ class Handle:
         self._parts = parts
         self._room = np.zeros(-(-context.get_abi_sizeof(context.get_value_type(inner)) // 8))
         self.address: int = self._room.ctypes.data
-        keep(self.address, parts)
+        laid, values = _laid_out(parts, inner)
+        struct.pack_into(laid, self._room, 0, *values)
+
+
+def _laid_out(parts: Any, kind: types.Type) -> tuple[str, list[float]]:
+    """Parts as numba has them in memory: format and values of Python's ``struct``.
+
+    Compiled code could write them, too; but making it takes longer the more arrays there are.
+    """
+    if isinstance(kind, types.Array):
+        values = [0, 0, parts.size, parts.itemsize, parts.ctypes.data, *parts.shape, *parts.strides]
+        return f"2P2nP{2 * parts.ndim}n", values
+    if isinstance(kind, types.BaseTuple):
+        inner = [_laid_out(*one) for one in zip(parts, kind, strict=True)]
+        formats, values = "".join(one for one, _ in inner), [v for _, some in inner for v in some]
+        return f"{formats}0q", values  # its end is aligned, as what follows may be a flag
+    return _NUMBERS[kind], [parts]
+
+
+_NUMBERS = {types.float64: "d", types.int64: "q", types.boolean: "?"}
 
 
 @register_model(HandleType)
@@ -103,22 +121,6 @@ def parts_at(context, address, like):
 def _load(context, builder, address, kind):
     stored = context.get_value_type(kind)
     return builder.load(builder.inttoptr(address, stored.as_pointer()))
-
-
-@intrinsic
-def _store(context, address, parts):
-    def codegen(context, builder, signature, args):
-        value = args[1]
-        builder.store(value, builder.inttoptr(args[0], value.type.as_pointer()))
-        return context.get_dummy_value()
-
-    return types.none(address, parts), codegen
-
-
-@entry
-def keep(address, parts):
-    """Write parts to an address."""
-    _store(address, parts)
 
 
 def resolved(function: Any, *example: object) -> Callable[..., Any]:

@@ -160,12 +160,11 @@ class Friction(NamedTuple):
 class Bed(NamedTuple):
     """Elastic foundation of the wall; see ``wall.foundation``.
 
-    nodes [N+1], edges [N]: the barrier's stiffness over the foundation's, at the nodes and at the
-    points between them; deepest: how far the wall may be pressed in.
+    ratio [N+1]: the barrier's stiffness over the foundation's at the nodes, between which it is the
+    mean of theirs; deepest: how far the wall may be pressed in. A rigid wall has zeros.
     """
 
-    nodes: Array
-    edges: Array
+    ratio: Array
     deepest: float
 
 
@@ -184,8 +183,8 @@ class Wall(NamedTuple):
     jet: Array
     easy: Array
     between: Between
+    bed: Bed
     friction: tuple[()] | tuple[Friction]
-    bed: tuple[()] | tuple[Bed] = ()
 
 
 class Tube(NamedTuple):

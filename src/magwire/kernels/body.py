@@ -12,7 +12,7 @@ from magwire.kernels._handle import Handle, parts_of
 from magwire.kernels._jit import entry, kernel
 from magwire.kernels.arrays import Array, Guide, Motion, Mouth, State, Terms, Work
 from magwire.kernels.centreline import LumenArrays
-from magwire.kernels.glance import glance
+from magwire.kernels.glance import GLANCE, glance
 from magwire.kernels.guide import find_mouth, place_held
 from magwire.kernels.linearise import linearise
 from magwire.kernels.march import Drive, Tally, march
@@ -31,11 +31,29 @@ class Queue(NamedTuple):
     inputs: Array
 
 
+INPUTS = GLANCE + 2
+"""Where inputs begin in what is seen of a wire."""
+
+
+class Sight(NamedTuple):
+    """Where what is seen of a wire without a record is written, and what it takes.
+
+    seen [INPUTS + m] as of ``glance``, in SI, then feed, twist and inputs; length, force: units of
+    what is scaled; patch, turn: see ``glance``.
+    """
+
+    seen: Array
+    length: float
+    force: float
+    patch: float
+    turn: tuple[float, float]
+
+
 class Parts(NamedTuple):
     """What a moving wire is made of.
 
     model: what its energy is made of; path: the way to the target, as a single tube; queue: what is
-    to be done; sheet: where what a record holds is written.
+    to be done; sheet: where what a record holds is written; sight: the same of what is seen at once.
     """
 
     model: Terms
@@ -47,6 +65,7 @@ class Parts(NamedTuple):
     tally: Tally
     queue: Queue
     sheet: Sheet
+    sight: Sight
 
 
 class Body(Handle):
@@ -114,11 +133,15 @@ def mouth_of(rod, guide, state):
 
 
 @entry
-def look(body, length, force, patch, turn, seen):
-    """Fill ``seen`` with a glance at the wire, in units of length and force."""
+def look(body):
+    """Fill what the body's ``Sight`` names with a glance at the wire, in SI."""
     p = parts_of(body)
+    seen, length, force, patch, turn = p.sight
     glance(p.model, p.state, p.work, patch, turn, seen)
     for c in range(3):
         seen[c] *= length
         seen[6 + c] *= force
     seen[9] *= length
+    seen[GLANCE], seen[GLANCE + 1] = p.state.guide[0] * length, p.state.guide[1]
+    for c in range(p.state.inputs.shape[0]):
+        seen[INPUTS + c] = p.state.inputs[c]

@@ -150,12 +150,11 @@ def nearest_in_bed(rod, lumen, wall, state, j, least):
 
 
 @kernel
-def nearest_along(beds, rod, lumen, wall, state, j, least):
+def nearest_along(rod, lumen, wall, state, j, least):
     """Smallest clearance along edge j, or ``least`` if that is smaller."""
-    if len(beds) == 0:
-        return nearest_on_edge(rod, lumen, state, j, least)
-    else:
+    if wall.bed.deepest > 0.0:
         return nearest_in_bed(rod, lumen, wall, state, j, least)
+    return nearest_on_edge(rod, lumen, state, j, least)
 
 
 @part
@@ -230,7 +229,7 @@ def read_contact(model, state, held, work, sheet, scales):
         middle = min(middle, d + pressed_in(at_edge(wall.bed, j), d, wall.gap))
         after = sheet.clearance[j] / length - sheet.wall_indentation[j] / length
         if not far_along(rod, lumen, state, j, (before, d, after), between):
-            between = nearest_along(wall.bed, rod, lumen, wall, state, j, between)
+            between = nearest_along(rod, lumen, wall, state, j, between)
         before = after
     return middle, between
 

@@ -8,6 +8,7 @@ from magwire.kernels._jit import kernel, short
 from magwire.kernels.scatter import add_diagonal, add_vector
 from magwire.kernels.vectors import norm, row
 from magwire.kernels.wall.collision import CAUTION, travel
+from magwire.kernels.wall.foundation import RIGID
 from magwire.kernels.wall.gap import fall
 from magwire.kernels.wall.push import clear_of_wall, push
 
@@ -19,7 +20,7 @@ def press(rod, tube, x):
         return inf, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     stiffness = tube.stiffness * rod.cell[rod.cell.shape[0] - 1]
     known, jet = tube.known[0], tube.jet[0]
-    return push(tube.path, x, stiffness, tube.gap, tube.offset, known, jet, (), known)
+    return push(tube.path, x, stiffness, tube.gap, tube.offset, known, jet, RIGID, known)
 
 
 @short

@@ -18,7 +18,6 @@ from magwire.kernels.wall.between import (
     left_at_ends,
     sag,
 )
-from magwire.kernels.wall.foundation import at_node, deepest
 from magwire.kernels.wall.gap import fall, gap_value, slopes
 from magwire.kernels.wall.push import all_clear, asked_at, clear_of_wall, query
 
@@ -69,7 +68,7 @@ def edge_part(rod, lumen, wall, q, step, j, r, limit):
     fast = fall(lumen)
     if clear_edge(between, q, j, limit * max(norm(dx), norm(dy)) / CAUTION - between.gap):
         return limit
-    leeway = deepest(at_node(wall.bed, j))
+    leeway = wall.bed.deepest
     spare = between.gap + leeway  # what a point may use up besides what is left to its barrier
     sagitta = sag(lumen, wall, q, j)
     low, end = left_at_ends(rod, wall, j, sagitta)
@@ -121,7 +120,7 @@ def allowed_part(rod, lumen, wall, q, step, held, leeway):
     share, fast = 1.0, fall(lumen)
     nodes = q.shape[0]
     lead = 4 * (held - 1)
-    leeway += deepest(at_node(wall.bed, nodes - 1))
+    leeway += wall.bed.deepest
     for begin in range(held + 1, nodes, 4):
         g = group(begin, nodes - 1)
         dx, dy, dz, _ = transposed(

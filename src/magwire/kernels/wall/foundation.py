@@ -61,51 +61,36 @@ def on_foundation(d, gap, ratio):
     return y, value + 0.5 * ratio * first * first, first, second / (1.0 + ratio * second)
 
 
-# A wall holds its foundation in a tuple, which is empty if it is rigid, as it does its friction;
-# so does a point: how much the wall gives way there, and the deepest that it may.
+# A rigid wall is one whose ratio is zero. It could be told by its type, as friction is; but then
+# all that a step takes would be compiled twice.
+
+RIGID = 0.0, 0.0
 
 
 @kernel
-def at_node(beds, i):
-    """How the wall gives way at a node: nothing, or the ratio of stiffnesses, and how far."""
-    if len(beds) == 0:
-        return ()
-    else:
-        return beds[0].nodes[i], beds[0].deepest
+def at_node(bed, i):
+    """How the wall gives way at a node: the ratio of stiffnesses, and how far it may."""
+    return bed.ratio[i], bed.deepest
 
 
 @kernel
-def at_edge(beds, j):
+def at_edge(bed, j):
     """How the wall gives way at the points of an edge; see ``at_node``."""
-    if len(beds) == 0:
-        return ()
-    else:
-        return beds[0].edges[j], beds[0].deepest
+    return 0.5 * (bed.ratio[j] + bed.ratio[j + 1]), bed.deepest
 
 
 @kernel
 def response(give, d, gap):
     """Clearance from the wall as it is, value, first and second derivative; see above."""
-    if len(give) == 0:
+    if give[0] == 0.0:
         value, first, second = barrier(d, gap)
         return d, value, first, second
-    else:
-        return on_foundation(d, gap, give[0])
-
-
-@kernel
-def deepest(give):
-    """How far the wall may be pressed in."""
-    if len(give) == 0:
-        return 0.0
-    else:
-        return give[1]
+    return on_foundation(d, gap, give[0])
 
 
 @kernel
 def pressed_in(give, d, gap):
     """How far the wall is pressed in at a clearance d from where it is at rest."""
-    if len(give) == 0:
+    if give[0] == 0.0 or not d < gap:
         return 0.0
-    else:
-        return -give[0] * on_foundation(d, gap, give[0])[2] if d < gap else 0.0
+    return -give[0] * on_foundation(d, gap, give[0])[2]

@@ -10,7 +10,7 @@ from magwire.kernels.groups import smallest_of
 from magwire.kernels.lanes import splat, where
 from magwire.kernels.vectors import dot, norm, scale, sub
 from magwire.kernels.wall.eased import eased
-from magwire.kernels.wall.foundation import at_node, deepest, response
+from magwire.kernels.wall.foundation import at_node, response
 from magwire.kernels.wall.gap import fall, gap_jet
 
 
@@ -67,7 +67,7 @@ def push(lumen, x, stiffness, gap, offset, known, jet, give, easy):
     d, n = jet[0] - offset, (jet[1], jet[2], jet[3])
     if d >= gap:
         return inf, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    if not d > -deepest(give):
+    if not d > -give[1]:
         return 0.0, inf, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     d, value, first, curved = response(give, d, gap)
     h = eased(lumen.sheet, n, (jet[4], jet[5], jet[6], jet[7], jet[8], jet[9]), easy)
