@@ -25,14 +25,18 @@ progress.EVERY = float("inf")  # on a slow machine lines of progress would stand
 ROOT = Path(__file__).parent
 FIRST = (
     "test_session.py",
-    "physics/test_soft_walls.py",
+    "faces/test_plot.py",
     "physics/test_moving_walls.py",
-    "physics/test_friction.py",
     "scenario/test_actuators.py",
     "lumen/test_surface.py",
+    "physics/test_friction.py",
     "env/test_env.py",
+    "physics/test_soft_walls.py",
 )
-"""Files by the kernels that they compile on a new machine: no two alike side by side."""
+"""Files by the kernels that they compile on a new machine: no two alike side by side.
+
+The second draws pictures: what all kinds of steps have in common is compiled beside it, once.
+"""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -108,9 +108,17 @@ def test_the_gap_has_no_jumps_where_a_trunk_begins(tmp_path: Path) -> None:
     assert np.abs(np.diff(slopes, axis=0)).max() < 0.02  # and its gradient turns slowly
 
 
-def test_the_handed_vertebral_arteries_from_the_basilar_one() -> None:
+@pytest.fixture(scope="module")
+def from_the_basilar() -> tuple[Vessel, mw.Lumen]:
+    """The handed vertebral arteries, and their lumen."""
     vessel = Vessel.read(DATA / "c28_vertebrals_join_loop.csv", entrance="basilar")
-    lumen = vessel.lumen()
+    return vessel, vessel.lumen()
+
+
+def test_the_handed_vertebral_arteries_from_the_basilar_one(
+    from_the_basilar: tuple[Vessel, mw.Lumen],
+) -> None:
+    vessel, lumen = from_the_basilar
     angle = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
     x = np.concatenate([np.linspace(-50.0, -16.0, 40), np.linspace(16.0, 50.0, 40)])
     x, angle = (each.ravel() for each in np.meshgrid(x, angle))
@@ -134,16 +142,18 @@ def test_the_handed_side_branch_at_a_wide_end_from_the_other_ends(entrance: str)
 
 
 @pytest.mark.parametrize("ending", [".vtp", ".nc", ".toml"])
-def test_trunks_go_with_the_files_that_are_written(ending: str, tmp_path: Path) -> None:
+def test_trunks_go_with_the_files_that_are_written(
+    ending: str, from_the_basilar: tuple[Vessel, mw.Lumen], tmp_path: Path
+) -> None:
     source = DATA / "c28_vertebrals_join_loop.csv"
     out = tmp_path / f"a{ending}"
     assert main(["lumen", "convert", str(source), str(out), "--entrance", "basilar"]) == 0
-    vessel, again = Vessel.read(source, entrance="basilar"), Vessel.read(out)
+    (vessel, lumen), again = from_the_basilar, Vessel.read(out)
     assert len(again.trunks) == len(vessel.trunks) == 2
     assert list(again.balls) == list(vessel.balls)
     for one, other in zip(vessel.trunks, again.trunks, strict=True):
         assert np.allclose(one, other, rtol=1e-14, atol=1e-17)
-    assert again.lumen().outlets == vessel.lumen().outlets
+    assert again.lumen().outlets == lumen.outlets
     if ending == ".toml":
         text = out.read_text() + (
             '[wire]\nlength = "80 mm"\nnodes = 81\nradius = "0.6 mm"\nyoungs_modulus = "3 MPa"\n'
@@ -153,7 +163,7 @@ def test_trunks_go_with_the_files_that_are_written(ending: str, tmp_path: Path) 
         (tmp_path / "run.toml").write_text(text)
         made = mw.load_scenario(tmp_path / "run.toml").lumen.build()
         points = np.random.default_rng(0).uniform(-0.03, 0.03, (500, 3))
-        assert np.array_equal(made.gap(points), vessel.lumen().gap(points), equal_nan=True)
+        assert np.array_equal(made.gap(points), lumen.gap(points), equal_nan=True)
 
 
 def fork(path: Path, ways: list[tuple[float, float, float]], length: float, narrow: float) -> Path:
