@@ -53,8 +53,7 @@ class Parts(NamedTuple):
     """What a moving wire is made of.
 
     model: what its energy is made of; path: the way to the target, as a single tube; queue: what is
-    to be done; sheet: where what a record holds is written; sight: the same of what is seen at
-    once.
+    to be done; sheet, sight: where what a record holds, and what is seen at once, is written.
     """
 
     model: Terms
