@@ -15,7 +15,7 @@ from numba.core.typing import Signature
 from numba.core.typing.context import BaseContext
 
 _find = BaseFunction.get_call_type
-_known: dict[tuple[Any, tuple[Any, ...]], Signature] = {}
+_known: dict[tuple[BaseContext, Any, tuple[Any, ...]], Signature] = {}
 
 
 def _call_type(
@@ -28,7 +28,7 @@ def _call_type(
     """
     if kws:
         return _find(function, context, args, kws)
-    call = (function.key, tuple(args))
+    call = (context, function.key, tuple(args))  # a graphics card has a context of its own
     found = _known.get(call)
     if found is not None:
         function._impl_keys[found.args] = function.typing_key
