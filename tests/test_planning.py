@@ -16,7 +16,7 @@ import surfaces
 from campaigns.planner_vessels import vessel
 from magwire.cli import main
 from magwire.cli.errand import _wire
-from magwire.many.planners import Task, plan_at_once
+from magwire.many.planners import Crew, Task, plan_at_once
 from magwire.planning import outlets
 from magwire.planning.remedy import remedy
 from magwire.planning.route import Route, firm_wall, fitted, route_to
@@ -284,6 +284,26 @@ def test_outlets_side_by_side_are_the_same_bits(found: dict[str, mw.Prospect]) -
     assert sorted(beside) == ["aside", "thin"]
     for name, prospect in beside.items():
         same_to_the_bit(prospect, found[name])
+
+
+def test_planners_may_start_before_it_is_known_what_they_plan(
+    found: dict[str, mw.Prospect],
+) -> None:
+    """Those that are not needed end with the crew, and where too few wait there are more."""
+    task = Task(FORK, WIRE, mw.Demands(), None)
+    with Crew(3) as crew:
+        waiting = crew._waiting
+        assert len(waiting) == 3
+        (first,) = list(plan_at_once(task, ("thin",), 2, crew))
+        same_to_the_bit(first, found["thin"])
+        assert [planner.process.poll() is None for planner in waiting] == [False, True, True]
+    assert all(planner.process.poll() is not None for planner in waiting)
+    with Crew(1) as crew:
+        ready = crew.take(task, 2)
+        assert len(ready) == 2
+        for planner in ready:
+            planner.stop()
+            planner.close()
 
 
 def same_to_the_bit(a: mw.Prospect, b: mw.Prospect) -> None:
