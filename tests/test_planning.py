@@ -16,10 +16,10 @@ import surfaces
 from campaigns.planner_vessels import vessel
 from magwire.cli import main
 from magwire.cli.errand import _wire, of_scenario
-from magwire.many.planners import Task, plan_at_once
+from magwire.many.planners import Crew, Task, plan_at_once
 from magwire.planning import outlets
 from magwire.planning.remedy import remedy
-from magwire.planning.route import Route, firm_wall, fitted
+from magwire.planning.route import Route, firm_wall, fitted, route_to
 from magwire.plot import prospects as maps
 from magwire.report.outlets import begun, save, taken_up
 from magwire.scenario import load
@@ -286,6 +286,26 @@ def test_outlets_side_by_side_are_the_same_bits(found: dict[str, mw.Prospect]) -
         same_to_the_bit(prospect, found[name])
 
 
+def test_planners_may_start_before_it_is_known_what_they_plan(
+    found: dict[str, mw.Prospect],
+) -> None:
+    """Those that are not needed end with the crew, and where too few wait there are more."""
+    task = Task(FORK, WIRE, mw.Demands(), None)
+    with Crew(3) as crew:
+        waiting = crew._waiting
+        assert len(waiting) == 3
+        (first,) = list(plan_at_once(task, ("thin",), 2, crew))
+        same_to_the_bit(first, found["thin"])
+        assert [planner.process.poll() is None for planner in waiting] == [False, True, True]
+    assert all(planner.process.poll() is not None for planner in waiting)
+    with Crew(1) as crew:
+        ready = crew.take(task, 2)
+        assert len(ready) == 2
+        for planner in ready:
+            planner.stop()
+            planner.close()
+
+
 def same_to_the_bit(a: mw.Prospect, b: mw.Prospect) -> None:
     for one in fields(a):
         assert np.array_equal(
@@ -359,34 +379,48 @@ def test_a_plan_is_written_and_read_to_the_bit(
         same_to_the_bit(prospect, found[prospect.outlet])
 
 
-def test_a_course_with_a_spike_is_planned_nearer_to_the_centreline_too(
-    found: dict[str, mw.Prospect], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """What is kept is the first that takes less field, and it says so."""
-    calm = found["aside"]
-    sizes = np.where(calm.flux_density > 0.0, 5e-3, 0.0)
-    spiky = replace(calm, flux_density=np.append(sizes, 0.05), peak_field=0.05)
-    peaks = {0.4: 0.05, 0.55: 0.06, 0.7: 0.02}
-    asked: list[float] = []
+def test_a_course_without_its_spike_is_replayed_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """If the wire does not get there along it, the course as it was planned first is taken."""
+    levels: list[bool] = []
 
-    def travel(nothing: mw.Prospect, route: object, demands: mw.Demands) -> mw.Prospect:
-        asked.append(round(demands.tip_clearance, 12))
-        return replace(spiky, peak_field=peaks[asked[-1]])
+    def foresee(*_: object, level: bool) -> list[str]:
+        levels.append(level)
+        return ["Planned otherwise."] if level else []
 
-    monkeypatch.setattr(outlets, "_travel", travel)
+    def run(route: Route, distance: float, navigator: mw.Navigator) -> mw.Result:
+        short = levels[-1]  # of a course without its spike
+        return route_run(route, 0.5 * distance if short else distance, navigator)
+
+    route_run = Route.run
+    monkeypatch.setattr(outlets, "foresee", foresee)
+    monkeypatch.setattr(Route, "run", run)
     (kept,) = mw.plan(FORK, WIRE, outlets=("aside",))
-    assert asked == [0.4, 0.55, 0.7]
-    assert kept.peak_field == 0.02
-    assert kept.reason == "Planned with tip_clearance 0.7; with 0.4 it takes 50 mT."
-    asked.clear()
-    peaks[0.7] = 0.07  # no better: the course that was asked for
+    assert levels == [True, False]
+    assert kept.reached
+    assert kept.reason == ""
+    levels.clear()
+    monkeypatch.setattr(Route, "run", route_run)
     (kept,) = mw.plan(FORK, WIRE, outlets=("aside",))
-    assert asked == [0.4, 0.55, 0.7]
-    assert (kept.peak_field, kept.reason) == (0.05, "")
-    asked.clear()
-    spiky = replace(spiky, flux_density=np.append(sizes, 0.039))  # less than eight times the rest
-    mw.plan(FORK, WIRE, outlets=("aside",))
-    assert asked == [0.4]
+    assert levels == [True]
+    assert kept.reason == "Planned otherwise."
+
+
+def test_a_wire_that_is_guessed_to_follow_itself_is_where_it_would_be() -> None:
+    """In bends whose wall holds it, steered: with fewer iterations than from its velocities."""
+    turns = np.linspace(0.0, 1.2 * np.pi, 60)
+    bends = np.stack([turns, np.sin(turns), 0.3 * np.sin(2.0 * turns)], axis=1)
+    tube = mw.Lumen.through(8e-3 * bends, 0.9e-3)
+    wire = replace(WIRE.sections[0], length=10e-3, magnetization=(0.0, 0.0, 0.0))
+    wire = mw.Wire((wire, replace(WIRE.sections[-1], length=4e-3)), 57)
+    (planned,) = mw.plan(tube, wire)
+    assert planned.reached
+    route = route_to(tube, wire)
+    plain = replace(route, replayed=mw.Simulation(route.replayed.system.wire, tube))
+    quick, slow = (one.run(planned.fed, mw.Prescribed(planned.schedule)) for one in (route, plain))
+    assert slow.max_wall_force > 1e-5
+    np.testing.assert_allclose(quick.position[-1], slow.position[-1], rtol=0.0, atol=1e-8)
+    assert quick.max_wall_force == pytest.approx(slow.max_wall_force, rel=1e-3)
+    assert quick.newton_iterations_per_step < 0.85 * slow.newton_iterations_per_step
 
 
 def test_an_outlet_that_is_missed_is_planned_for_nearer_to_the_centreline_too() -> None:

@@ -75,7 +75,14 @@ def test_at_its_limit_a_field_makes_no_wire_stiffer(
         raise NavigationError("lost")
 
     monkeypatch.setattr(pilot, "_reach", lost)
-    monkeypatch.setattr(pilot, "_improve", lambda view, before, moved: view)
+    changed = 1.0 + 1e-6
+    monkeypatch.setattr(
+        pilot, "_improve", lambda view, before, moved: replace(view, flux=changed * view.flux)
+    )
     with pytest.raises(NavigationError, match="lost"):
         pilot._step(last, last.feed + 0.25e-3)
     assert len(tried) == tries
+    pilot.brisk, changed = True, 1.0  # a margin that changes nothing: nor will a larger one
+    with pytest.raises(NavigationError, match="lost"):
+        pilot._step(last, last.feed + 0.25e-3)
+    assert len(tried) == tries + 1

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from magwire.navigate.tuned import COURSE, OUTLET, PILOT, PROGRAMME, RETRY, SWING
+from magwire.navigate.tuned import COURSE, OUTLET, PILOT, PROGRAMME, RETRY, SPIKE, SWING
 
 PAGE = " ".join((Path(__file__).parents[2] / "docs/theory/steering.md").read_text().split())
 ALL = {
@@ -16,6 +16,7 @@ ALL = {
     "SWING": SWING,
     "COURSE": COURSE,
     "RETRY": RETRY,
+    "SPIKE": SPIKE,
     "OUTLET": OUTLET,
 }
 COUNTS = {3: "three", 8: "eight", 12: "twelve"}

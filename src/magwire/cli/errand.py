@@ -15,6 +15,7 @@ from magwire.contact import Barrier
 from magwire.errors import InputError, one_of, positive
 from magwire.lumen import Lumen
 from magwire.lumen.names import meant
+from magwire.many.planners import NOBODY, Check, Crew, Task, check_at_once, plan_at_once
 from magwire.navigate.demands import Demands
 from magwire.planning import Prospect, Trial, plan
 from magwire.planning.perturbations import CHANGES, tried
@@ -129,13 +130,13 @@ def outlets(work: Work, targets: Sequence[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(names))
 
 
-def carried_out(work: Work, names: Sequence[str], workers: int = 1) -> Iterator[Prospect]:
+def carried_out(
+    work: Work, names: Sequence[str], workers: int = 1, crew: Crew = NOBODY
+) -> Iterator[Prospect]:
     """Plan for outlets, as many at a time as there are workers; yielded as they are done."""
     if workers > 1 and len(names) > 1:
-        from magwire.many.planners import Task, plan_at_once
-
         task = Task(work.lumen, work.wire, work.demands, work.contact)
-        yield from plan_at_once(task, names, workers)
+        yield from plan_at_once(task, names, workers, crew)
         return
     for name in names:
         yield from plan(
@@ -156,8 +157,6 @@ def checked(
     """
     orders = [(change, prospect) for prospect in prospects for change in CHANGES]
     if workers > 1:
-        from magwire.many.planners import Check, Task, check_at_once
-
         task = Task(work.lumen, work.wire, work.demands, work.contact)
         yield from check_at_once(task, [Check(*order) for order in orders], workers)
         return

@@ -95,10 +95,11 @@ class System:
     release
         ``"sliding"``: the bending element at the guide's mouth counts with the part that is past
         the entrance; ``"node"``: node by node, as in the paper (P-15).
-    halves
-        Whether a time step that takes a point between two nodes into the wall is halved, instead of
-        asking how far each point may go: far less work where hundreds of edges lie on a hard wall,
-        and another way to the same end, but for the tolerance.
+    brisk
+        Whether time steps are for large feeds along a hard wall: a wire that is fed by an edge is
+        guessed to follow itself, and a step that takes a point between two nodes into the wall is
+        halved, instead of asking how far each point may go. Far less work where hundreds of edges
+        lie on the wall, and another way to the same end, but for the tolerance.
     """
 
     wire: Wire
@@ -113,7 +114,7 @@ class System:
     friction: Friction | None = None
     actuator: Actuator | None = None
     wall_motion: tuple[WallMotion, ...] = ()
-    halves: bool = False
+    brisk: bool = False
 
     def __post_init__(self) -> None:
         instance("Simulation", "wire", self.wire, Wire)
@@ -300,7 +301,7 @@ class System:
         stiffnesses = [section.bending_stiffness for section in self.wire.sections]
         turn = 1.0 if max(stiffnesses) > UNEVEN * min(stiffnesses) else 0.0
         step = min(LAST_STEP, LAST_SLIP * self.elastic_slip) if self.rubs else LAST_STEP
-        return self._limits(TOLERANCE, ITERATIONS)._replace(step=step, turn=turn, halve=self.halves)
+        return self._limits(TOLERANCE, ITERATIONS)._replace(step=step, turn=turn, brisk=self.brisk)
 
     def sharp_limits(self) -> Limits:
         """When Newton's method stops at an equilibrium."""

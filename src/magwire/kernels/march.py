@@ -36,6 +36,7 @@ from magwire.kernels.wall.work import count_half
 COARSE = 6  # a step may be cut in half this many times before its parts follow the wall
 RETRIES = 10  # and this many times in all
 SNAPPING = 10  # times as many iterations has a step without inertia under friction: it may snap
+WHOLE = 0.99  # edges that a step feeds at least for the wire to follow itself
 EAGER = 5  # after so many times they are changed by half: they may go to and fro for ever
 LOADINGS = 60  # times that the normal forces of a step with friction are read off its end
 
@@ -120,6 +121,35 @@ def predict(model, state, before, held, dt, work, slides, inertia):
 
 
 @part
+def trail(model, state, before, held, dt, fed, work):
+    """Move the free unknowns on as those of the next node moved; whether that keeps off the wall.
+
+    A wire that is fed by an edge follows itself: where a wall holds it, each node comes to where
+    the one after it was. If it would touch, it is guessed to be there, or half of the way there.
+    fed: in edges.
+    """
+    rod, wall, lumen = model.rod, model.wall, model.lumen
+    tip = state.q.shape[0] - 1
+    for share in (1.0, 0.5, 0.0):
+        for i in range(held, tip + 1):
+            j, r = min(i + 1, tip), 4 * (i - held + 1)
+            way = dt * load(before.velocity, j, 0)
+            if i < tip:
+                onto = fed * (load(before.q, j, 0) - load(before.q, i, 0))
+                way = share * way + (1.0 - share) * onto
+            store(work.way, r, 0, way)
+            work.way[r + 3] = dt * before.velocity[i, 3]
+        for r in range(FIRST):
+            work.way[r] = 0.0
+        take_step(state, work.trial, held, 1.0, work.way)
+        energy, _ = add_walls(rod, lumen, wall, work.trial, held, work.gradient, work.no_band)
+        if energy < inf:
+            copy_configuration(work.trial, state, held)
+            return True
+    return False
+
+
+@part
 def follow_tangents(state, held, speed):
     """Velocities of a wire that slides along itself: the guess of quasi-static steps."""
     last = state.q.shape[0] - 1
@@ -153,7 +183,10 @@ def time_step(model, guide, state, work, limits, slides, start, end, dt, drive):
     for i in range(held, nodes):
         store(work.target, i, 0, load(state.q, i, 0) + onwards * load(state.velocity, i, 0))
     carry(lumen.moving, work.ahead, held)
-    predict(model, work.ahead, state, held, dt, work, slides, drive.inertia)
+    fed = (end[0] - start[0]) / rod.rest[rod.rest.shape[0] - 1]
+    follows = limits.brisk and drive.inertia and fed > WHOLE
+    if not (follows and trail(model, work.ahead, state, held, dt, fed, work)):
+        predict(model, work.ahead, state, held, dt, work, slides, drive.inertia)
     place_held(rod, guide, work.ahead, held - 1, held, end[0], end[1])
     update_frames(state, work.ahead, held)
     motion = Motion(drag / (dt * dt) if drive.inertia else 0.0, work.target)
@@ -165,7 +198,7 @@ def time_step(model, guide, state, work, limits, slides, start, end, dt, drive):
         limits.step,
         limits.turn,
         slides,
-        limits.halve,
+        limits.brisk,
     )
     mouth = Mouth(held, fraction)
     return solve_step(wall.friction, model, state, mouth, motion, work, limits, dt)

@@ -39,8 +39,7 @@ class Limits(NamedTuple):
     full step shorter than this, in L, and than a hundredth of every clearance in which the wall is
     felt, is the last one: it changes no wall force by more than a few percent, and the next step
     would be its square. turn: part of a step from which on its edges may turn, if the line search
-    comes down to it. slide: whether steps follow the wall. halve: whether a step that takes a point
-    between two nodes into the wall is halved, instead of asking how far each point may go.
+    comes down to it. slide: whether steps follow the wall. brisk: see ``System``.
     """
 
     tolerance: float
@@ -49,7 +48,7 @@ class Limits(NamedTuple):
     step: float = 0.0
     turn: float = 1.0
     slide: bool = False
-    halve: bool = False
+    brisk: bool = False
 
 
 @kernel
@@ -219,7 +218,7 @@ def search(model, a, b, mouth, motion, work, limits, aim):
         share = within_tube(tube, a.q, work.step, held, share)
         leeway = 0.0
     far = limits.step == 0.0  # from the end, where a step that is halved leads nowhere
-    blind = not (limits.slide or far or limits.halve)  # to points between the nodes
+    blind = not (limits.slide or far or limits.brisk)  # to points between the nodes
     if far and not limits.slide:
         share = allowed_between(rod, lumen, wall, a.q, work.step, held, share)
     for _ in range(HALVINGS):

@@ -1,21 +1,25 @@
 """Plans for several outlets at a time, and what is tried of them, in processes of their own.
 
-What travels are the models themselves, pickled, to the bit.
+What travels are the models themselves, pickled, to the bit. The processes can be started before it
+is known what they are to plan, so that they load while a vessel is read: this module loads little.
 """
 
 from __future__ import annotations
 
 import pickle
 from collections.abc import Generator, Sequence
-from typing import NamedTuple
+from types import TracebackType
+from typing import TYPE_CHECKING, NamedTuple, cast
 
-from magwire.contact import Barrier
 from magwire.errors import MagwireError
-from magwire.lumen import Lumen
 from magwire.many.children import Child, side_by_side
-from magwire.navigate.demands import Demands
-from magwire.planning import Prospect, Trial
-from magwire.wire import Wire
+
+if TYPE_CHECKING:
+    from magwire.contact import Barrier
+    from magwire.lumen import Lumen
+    from magwire.navigate.demands import Demands
+    from magwire.planning import Prospect, Trial
+    from magwire.wire import Wire
 
 
 class Task(NamedTuple):
@@ -37,9 +41,14 @@ class Check(NamedTuple):
 class Planner(Child):
     """A process that plans a task for one outlet after the other, or tries what was planned."""
 
-    def __init__(self, task: Task) -> None:
+    def __init__(self) -> None:
         super().__init__("magwire.many.planner")
-        self._task: Task | None = task
+        self._task: Task | None = None
+
+    def take(self, task: Task) -> Planner:
+        """Give it the task that all its orders are about; returns itself."""
+        self._task = task
+        return self
 
     def plan(self, name: str) -> Prospect:
         """What to expect on the path to an outlet.
@@ -49,16 +58,12 @@ class Planner(Child):
         MagwireError
             What planning raises, in its words; or that the process has died, and its last words.
         """
-        answer = self._answer(name, name)
-        assert isinstance(answer, Prospect)
-        return answer
+        return cast("Prospect", self._answer(name, name))
 
     def check(self, order: Check) -> tuple[str, Trial]:
         """The outlet, and how the way there went with a change; raises as ``plan`` does."""
         outlet = order.prospect.outlet
-        answer = self._answer(order, outlet)
-        assert isinstance(answer, Trial)
-        return outlet, answer
+        return outlet, cast("Trial", self._answer(order, outlet))
 
     def _answer(self, order: str | Check, outlet: str) -> Prospect | Trial:
         try:
@@ -76,7 +81,45 @@ class Planner(Child):
         return answer
 
 
-def plan_at_once(task: Task, names: Sequence[str], workers: int) -> Generator[Prospect, None, None]:
+class Crew:
+    """Planners that load while it is not known yet what they are to plan; a context.
+
+    Parameters
+    ----------
+    size
+        How many are started.
+    """
+
+    def __init__(self, size: int) -> None:
+        self._waiting = [Planner() for _ in range(size)]
+
+    def __enter__(self) -> Crew:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """End those that were not needed."""
+        for planner in self._waiting:
+            planner.stop()
+            planner.close()
+
+    def take(self, task: Task, count: int) -> list[Planner]:
+        """So many planners with a task; where too few are waiting, new ones."""
+        missing = max(0, count - len(self._waiting))
+        ready, self._waiting = self._waiting[:count], self._waiting[count:]
+        return [planner.take(task) for planner in [*ready, *(Planner() for _ in range(missing))]]
+
+
+NOBODY = Crew(0)
+
+
+def plan_at_once(
+    task: Task, names: Sequence[str], workers: int, crew: Crew = NOBODY
+) -> Generator[Prospect, None, None]:
     """Plan for outlets in processes, yielded as they are done.
 
     Each is bit for bit what ``magwire.planning.plan`` gives for it alone.
@@ -89,13 +132,15 @@ def plan_at_once(task: Task, names: Sequence[str], workers: int) -> Generator[Pr
         Outlets, begun in this order.
     workers
         Number of processes.
+    crew
+        Some of them that have been started already.
 
     Raises
     ------
     MagwireError
         If planning fails, or a process dies.
     """
-    pool = [Planner(task) for _ in range(min(workers, len(names)))]
+    pool = crew.take(task, min(workers, len(names)))
     yield from side_by_side(pool, names, lambda planner, name, _: planner.plan(name))
 
 
@@ -106,5 +151,5 @@ def check_at_once(
 
     Parameters and errors are those of ``plan_at_once``.
     """
-    pool = [Planner(task) for _ in range(min(workers, len(orders)))]
+    pool = NOBODY.take(task, min(workers, len(orders)))
     yield from side_by_side(pool, orders, lambda planner, order, _: planner.check(order))

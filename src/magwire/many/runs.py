@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from magwire.errors import offering, refuse, whole
+from magwire.many.children import cores
 from magwire.many.cluster import run_there
 from magwire.many.job import Job
 from magwire.many.outcome import Outcome
@@ -97,13 +97,6 @@ def outcomes_of(
             file = files[number]
             kept = Path(file) if file is not None and Path(file).exists() else None
             yield Outcome(number, done["status"], done["message"], kept, done["numbers"])
-
-
-def cores() -> int:
-    """Cores that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 @contextmanager

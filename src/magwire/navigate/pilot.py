@@ -65,9 +65,15 @@ class Pilot:
     firm
         Eigenvalue, in stability margins, from which on a wire that was lost is made only a little
         stiffer; that of ``tuned.PILOT`` if left out.
+    brisk
+        Whether it does not search on where that led nowhere in tight vessels; see
+        ``StableNavigator``.
     """
 
-    def __init__(self, model: Model, programme: Programme, firm: float | None = None) -> None:
+    def __init__(
+        self, model: Model, programme: Programme, firm: float | None = None, *, brisk: bool = False
+    ) -> None:
+        self.brisk = brisk
         self.firm = tuned.PILOT.firm if firm is None else firm
         self.model = model
         self.programme = programme
@@ -122,6 +128,8 @@ class Pilot:
             self._margin = self._stiffer(last.view.eigenvalue)
             model.return_to(last.snapshot)
             view = self._improve(last.view, last.flux, moved)
+            if self.brisk and not np.any(view.flux != last.flux):  # nor will a larger margin
+                break
             last = Knot(last.feed, model.remember(), view)
         self.forget()
         raise lost
@@ -208,7 +216,7 @@ class Pilot:
         stiffness = tuned.PILOT.inertia * self._length / moved
         wedged = view.eigenvalue > tuned.PILOT.wedged * self.programme.demands.stability_margin
         touchy = not wedged and self.model.near_wall
-        if touchy:
+        if touchy or self.brisk:
             self._trust = max(self._trust, tuned.PILOT.fresh)
         for _ in range(tuned.PILOT.programmes):
             change = self._change(view, before, stiffness, moved)
@@ -223,7 +231,9 @@ class Pilot:
             if part == 0.0 and self._trust == used:  # the next programme would be this one again
                 break
             enough = 1.0 if touchy else 0.5**tuned.PILOT.halvings
-            if part >= enough and norm(change) < tuned.PILOT.settled * self.programme.unit:
+            size, unit = norm(change), self.programme.unit
+            cut = self.brisk and np.abs(change).max() >= (1.0 - ROUND_OFF) * used * unit
+            if part >= enough and not cut and size < tuned.PILOT.settled * unit:
                 break
         return view
 

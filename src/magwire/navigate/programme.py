@@ -62,6 +62,8 @@ class Programme:
         Within it the wall presses on the tip [m].
     shares
         Each coil's part in a flux density: a matrix for each, shape (m, 3, 3), with the sum one.
+    tolerance
+        Miss of a constraint that counts as none, in the lumen's radius or the eigenvalue.
     """
 
     demands: Demands
@@ -69,6 +71,7 @@ class Programme:
     keep_off: float
     activation_gap: float
     shares: Array = field(default_factory=lambda: AXES)
+    tolerance: float = 0.0
 
     def room(self, view: View) -> float:
         """How far from the centreline the tip may be [m]."""
@@ -212,7 +215,8 @@ def constraints(programme: Programme, view: View, margin: float) -> Constraints:
             rows[last - len(own) : last, :3] += by_change
             upper[last - len(own) : last] -= most
         missed = tuple(np.minimum.reduceat(upper, programme.starts).tolist())
-    return Constraints(rows, upper, sum(max(0.0, -value) for value in missed))
+    counted = sum(max(0.0, -value - programme.tolerance) for value in missed)
+    return Constraints(rows, upper, counted)
 
 
 @lru_cache(maxsize=4)

@@ -44,6 +44,9 @@ class StableNavigator:
         Feed between two planned fields [m]; half a percent of the wire if left out.
     friction
         ``"model"``: the plan is made with the system's friction; ``"none"``: without.
+    brisk
+        Whether the search for a field is that for tight vessels: with a tolerance for constraints,
+        and with fewer tries that lead nowhere there. A swing may hang on them.
 
     Raises
     ------
@@ -59,6 +62,7 @@ class StableNavigator:
         demands: Demands | None = None,
         plan_every: float | None = None,
         friction: InModel = "none",
+        brisk: bool = False,
     ) -> None:
         instance("StableNavigator", "system", system, System)
         instance("StableNavigator", "path", path, Lumen, or_none=True)
@@ -73,7 +77,7 @@ class StableNavigator:
         self.plan_every = positive("StableNavigator", "plan_every", length, "m")
         self.model = Model(system, path, friction=friction)
         self._length = self.model.reach
-        self._shares = AXES
+        self._shares, self._brisk = AXES, brisk
         self._keep_to(Demands() if demands is None else demands)
         self._begin(Knot(0.0, self.model.remember(), None), back=False)
 
@@ -91,7 +95,14 @@ class StableNavigator:
         if self._failure is not None and (short < -CLOSE if back else short > CLOSE):
             raise self._failure
         weak = self.demands.weakening
-        return Schedule.along([(knot.feed, knot.flux / weak) for knot in self._knots])
+        whole = back or observation.goal is not None
+        near = self._knots if whole else self._up_to(end)
+        return Schedule.along([(knot.feed, knot.flux / weak) for knot in near])
+
+    def _up_to(self, end: float) -> list[Knot]:
+        """The planned fields up to the first one at or past a feed [m]."""
+        count = next((k for k, knot in enumerate(self._knots) if knot.feed >= end), -1)
+        return self._knots[: count + 1] if count >= 0 else self._knots
 
     def _full_steps(self, feed: float) -> float:
         """The first feed at or past another that is full steps of the plan away."""
@@ -123,6 +134,26 @@ class StableNavigator:
         """The planned field next behind the wire, from which the plan can be resumed."""
         return self._knots[0]
 
+    @property
+    def knots(self) -> list[Knot]:
+        """All planned fields from there on."""
+        return list(self._knots)
+
+    @property
+    def unit(self) -> float:
+        """Flux density of order one [T]."""
+        return self._pilot.programme.unit
+
+    def go_on(self, end: float) -> bool:
+        """Plan on to a feed [m], as far as it goes; whether there is a field all the way."""
+        self._extend(end)
+        return self._failure is None
+
+    def take(self, knots: list[Knot]) -> None:
+        """Take over fields that were planned, from the first one of them on."""
+        self._begin(knots[-1], back=False)
+        self._knots = list(knots)
+
     def resume(self, knot: Knot, demands: Demands) -> None:
         """Plan anew from a knot that was planned before, and keep to other demands from there."""
         self._keep_to(demands)
@@ -138,11 +169,12 @@ class StableNavigator:
             system.keep_off,
             system.firmness.activation_gap,
             self._shares,
+            tuned.PROGRAMME.tolerance if self._brisk else 0.0,
         )
         free = replace(demands, max_field=float("inf"), gain_tolerance=0.0)
         unlimited = replace(programme, demands=free)
-        self._pilot = Pilot(self.model, programme)
-        self._scout = Pilot(self.model, unlimited, firm=float("inf"))
+        self._pilot = Pilot(self.model, programme, brisk=self._brisk)
+        self._scout = Pilot(self.model, unlimited, firm=float("inf"), brisk=self._brisk)
         self._swings = Swings(self.model, programme)
 
     def _begin(self, knot: Knot, back: bool) -> None:
@@ -156,10 +188,14 @@ class StableNavigator:
     def _take_up(self, feed: float, back: bool) -> None:
         """Drop what lies behind the wire; if the plan does not lead on from here, begin anew."""
         knots = self._knots
-        feeds = [knot.feed for knot in knots]
-        if back == self._back and min(feeds) - CLOSE <= feed <= max(feeds) + CLOSE:
-            passed = [k for k in knots if (k.feed >= feed if back else k.feed <= feed + CLOSE)]
-            self._knots = knots[max(0, len(passed) - 1) :]
+        low, high = sorted((knots[0].feed, knots[-1].feed))
+        if back == self._back and low - CLOSE <= feed <= high + CLOSE:
+            passed = 1
+            while passed < len(knots) and (
+                knots[passed].feed >= feed if back else knots[passed].feed <= feed + CLOSE
+            ):
+                passed += 1
+            self._knots = knots[passed - 1 :]
             return
         nearest = min(knots, key=lambda knot: abs(knot.feed - feed))
         self._begin(nearest, back=feed < nearest.feed)

@@ -23,7 +23,8 @@ class PilotNumbers:
     least_trust
         Smallest such bound.
     fresh
-        Trust at a new feed, at least, of a wire on the wall: its nodes have moved on.
+        Trust at a new feed, at least, of a wire on the wall, or in a tight vessel: its nodes have
+        moved on.
     halvings
         How often a change of the field that makes things worse is halved, at most.
     beyond
@@ -79,11 +80,15 @@ class ProgrammeNumbers:
         Room for the tip in a field that is off, over the room in the field itself.
     most_room
         Such room at most, as a part of the distance to the wall.
+    tolerance
+        In tight vessels, miss of a constraint that counts as none, in the lumen's radius or the
+        eigenvalue.
     """
 
     penalty: float = 300.0
     off_room: float = 1.3
     most_room: float = 0.85
+    tolerance: float = 1e-3
 
 
 @dataclass(frozen=True)
@@ -232,6 +237,39 @@ class RetryNumbers:
 
 
 @dataclass(frozen=True)
+class SpikeNumbers:
+    """Of other courses where the field of one has a spike; see ``magwire.navigate.foresight``.
+
+    Attributes
+    ----------
+    over
+        Peak field that counts as a spike, over the median along the way.
+    lead, past
+        Feed before the peak and after it, in the model's reach, in which the course is another one.
+    farther, nearer
+        What remains of the tip's clearance, and the part of its room that it gives up: two courses.
+    gain
+        Peak of another course at most, over the one that it is to replace.
+    rounds
+        Spikes that are looked at one after the other, at most.
+    same_field, same_offset, same_stiffness
+        Where the new course is as near to the old one as this, it goes on as that: in the unit of
+        fields, in the lumen's radius, and the logarithm of the eigenvalues' ratio.
+    """
+
+    over: float = 4.0
+    lead: float = 0.05
+    past: float = 0.1
+    farther: float = 0.5
+    nearer: float = 0.25
+    gain: float = 0.97
+    rounds: int = 3
+    same_field: float = 0.02
+    same_offset: float = 0.03
+    same_stiffness: float = 0.2
+
+
+@dataclass(frozen=True)
 class OutletNumbers:
     """Of a plan to an outlet; see ``magwire.planning``.
 
@@ -253,12 +291,9 @@ class OutletNumbers:
         Attempts in one place.
     slack
         Feed at most, over the length of the path: a wire may lie on the outside of bends.
-    spike
-        Peak field, over the median along the way, from which on a course is also planned with the
-        tip nearer to the centreline.
     nearer
-        Parts of its room that the tip gives up there, and where an outlet is missed, one tried
-        after the other.
+        Parts of its room that the tip gives up where an outlet is missed, one tried after the
+        other.
     """
 
     pace: float = 0.2
@@ -269,7 +304,6 @@ class OutletNumbers:
     hard: float = 1e-3
     attempts: int = 3
     slack: float = 1.1
-    spike: float = 8.0
     nearer: tuple[float, ...] = (0.25, 0.5)
 
 
@@ -278,4 +312,5 @@ PROGRAMME = ProgrammeNumbers()
 SWING = SwingNumbers()
 COURSE = CourseNumbers()
 RETRY = RetryNumbers()
+SPIKE = SpikeNumbers()
 OUTLET = OutletNumbers()

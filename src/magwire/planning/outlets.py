@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from magwire.errors import InputError, instance
 from magwire.lumen import Lumen
 from magwire.navigate import tuned
 from magwire.navigate.demands import Demands
+from magwire.navigate.foresight import foresee
 from magwire.navigate.navigator import (
     Course,
     NavigationError,
@@ -19,8 +20,9 @@ from magwire.navigate.navigator import (
     Observation,
     Prescribed,
 )
+from magwire.navigate.persistent import persistent
 from magwire.navigate.schedule import Schedule, last_tries
-from magwire.navigate.tip import TipNavigator
+from magwire.navigate.stable import StableNavigator
 from magwire.operate.steering import Persistent
 from magwire.planning.prospect import Prospect
 from magwire.planning.remedy import remedy
@@ -131,15 +133,9 @@ def _prospect(
         )
     route = route_to(lumen, wire, contact)
     found = _travel(nothing, route, demands)
-    if _has_spike(found) if found.reached else _is_lost(found, route, demands):
+    if not found.reached and _is_lost(found, route, demands):
         return _nearer(found, nothing, route, demands)
     return found
-
-
-def _has_spike(found: Prospect) -> bool:
-    """Whether the field of a course is far larger in one place than elsewhere."""
-    sizes = found.flux_density[found.flux_density > 0.0]
-    return len(sizes) > 0 and bool(sizes.max() > tuned.OUTLET.spike * np.median(sizes))
 
 
 def _is_lost(found: Prospect, route: Route, demands: Demands) -> bool:
@@ -153,24 +149,18 @@ def _at_limit(found: Prospect, demands: Demands) -> bool:
 
 
 def _nearer(found: Prospect, nothing: Prospect, route: Route, demands: Demands) -> Prospect:
-    """The course, or one nearer to the centreline if only that gets there, or in less field.
+    """The course that misses an outlet, or one nearer to the centreline that gets there.
 
     Fields are planned one feed after the other. A wire that comes to a bend with its tip at the
-    rim of its room may need far more field there than one that comes along the middle, or more than
-    any.
+    rim of its room may find no field there in which one that comes along the middle gets on.
     """
     for part in tuned.OUTLET.nearer:
         clearance = demands.tip_clearance + part * (1.0 - demands.tip_clearance)
         other = _travel(nothing, route, replace(demands, tip_clearance=clearance))
-        if other.reached and not (found.reached and other.peak_field >= found.peak_field):
-            before = (
-                f"it takes {1e3 * found.peak_field:.3g} mT"
-                if found.reached
-                else _left(found, route)
-            )
+        if other.reached:
             said = (
                 f"Planned with tip_clearance {clearance:.3g}; with {demands.tip_clearance:.3g} "
-                f"{before}."
+                f"{_left(found, route)}."
             )
             return replace(other, reason=" ".join(filter(None, (said, other.reason))))
     return found
@@ -181,40 +171,47 @@ def _left(found: Prospect, route: Route) -> str:
     return f"{1e3 * (route.goal - found.came):.4g} mm are left"
 
 
-@dataclass(frozen=True)
-class _Unasked:
-    """A navigator that is not asked where the tip should be: it would solve for it each time."""
+class _Foreseen:
+    """A navigator whose course is planned to its end before the wire sets out.
 
-    navigator: Navigator
+    It is not asked where the tip should be: it would solve for it each time. Nor does it plan on
+    ahead of the wire, unless that was taken back.
+    """
+
+    def __init__(self, navigator: Navigator, notes: Sequence[str]) -> None:
+        self._navigator, self._notes, self._as_foreseen = navigator, notes, True
 
     @property
     def notes(self) -> Sequence[str]:
-        """What was tried again."""
-        return getattr(self.navigator, "notes", ())
+        """What was planned otherwise, and what was tried again."""
+        return [*self._notes, *getattr(self._navigator, "notes", ())]
 
     def plan(self, observation: Observation, until: float) -> Course:
         """See ``Navigator.plan``."""
-        return self.navigator.plan(observation, until)
+        seen = replace(observation, goal=None) if self._as_foreseen else observation
+        return self._navigator.plan(seen, until)
 
     def go_back(self, seen: Observation, failure: NavigationError) -> float:
         """See ``Persistent.go_back``."""
-        if isinstance(self.navigator, Persistent):
-            return self.navigator.go_back(seen, failure)
+        self._as_foreseen = False
+        if isinstance(self._navigator, Persistent):
+            return self._navigator.go_back(seen, failure)
         raise failure
 
 
-def _travel(nothing: Prospect, route: Route, demands: Demands) -> Prospect:
-    """Plan ahead of a wire that moves with inertia: what it takes is what that wire says.
+def _travel(nothing: Prospect, route: Route, demands: Demands, *, level: bool = True) -> Prospect:
+    """Plan the whole course, and see what a wire that moves with inertia does along it.
 
     The plan does not hang on what the wire does, unless its tip goes astray: what is seen is the
     course replayed open loop. Where the wire was taken back to try again, the last tries are
-    replayed from the entrance.
+    replayed from the entrance. ``level``: without spikes, if that gets there.
     """
     goal = route.goal
-    steering = TipNavigator(
-        demands, update_every=route.step, plan_every=route.every, attempts=tuned.OUTLET.attempts
+    stable = StableNavigator(
+        route.planned.system, demands=demands, plan_every=route.every, brisk=True
     )
-    navigator = _Unasked(steering.start(route.planned.system))
+    notes = foresee(stable, route.feed, goal, level=level)
+    navigator = _Foreseen(persistent(stable, tuned.OUTLET.attempts), notes)
     planned = route.run(route.feed.largest, navigator)
     if len(planned.feed) == 0 or not planned.feed.max() > 0.0:
         return replace(nothing, reason=planned.message)
@@ -246,6 +243,8 @@ def _travel(nothing: Prospect, route: Route, demands: Demands) -> Prospect:
     )
     if found.reached:
         return found
+    if notes:
+        return _travel(nothing, route, demands, level=False)
     left = _left(found, route)
     if planned.status != RunStatus.COMPLETE:
         reason = planned.message

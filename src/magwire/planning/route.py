@@ -46,8 +46,8 @@ def route_to(lumen: Lumen, wire: Wire, contact: Barrier | None = None) -> Route:
 
 
 def _briskly(simulation: Simulation) -> Simulation:
-    """The simulation, with steps that are halved where they take an edge into the wall."""
-    simulation.system = replace(simulation.system, halves=True)
+    """The simulation, with steps that are made for large feeds along a hard wall."""
+    simulation.system = replace(simulation.system, brisk=True)
     return simulation
 
 

@@ -14,7 +14,10 @@ from magwire.cli.words import INTERRUPTED, complain, say, say_if_compiling
 
 if TYPE_CHECKING:
     from magwire.cli.errand import Work
+    from magwire.many.planners import Crew
     from magwire.planning import Prospect, Trial
+
+EARLY = 4  # planners, at most, that are started before it is known how many outlets there are
 
 
 def plan_outlets(
@@ -63,11 +66,9 @@ def plan_outlets(
     force
         Overwrite what is there.
     """
-    from magwire.cli import errand
     from magwire.errors import whole
-    from magwire.many.runs import cores
-    from magwire.report import outlets
-    from magwire.scenario import load, names
+    from magwire.many.children import cores
+    from magwire.many.planners import Crew
 
     words = {
         "diameter": wire,
@@ -77,39 +78,45 @@ def plan_outlets(
         "magnet": magnetized_tip,
     }
     count = whole("plan", "workers", cores() if workers is None else workers, minimum=1)
-    if out is not None and not outlets.begun(out):  # better said before the work than after it
-        check_free(out, force=force)
-    say_if_compiling()
-    if len(sources) == 1 and (sources[0] in names() or Path(sources[0]).suffix == ".toml"):
-        reading.refuse_any()
-        refuse(
-            {
-                "youngs-modulus": youngs_modulus,
-                "magnetization": magnetization,
-                "magnetized-tip": magnetized_tip,
-            }
-        )
-        work = errand.of_scenario(load(sources[0]), words)
-    else:
-        source = source_of(tuple(map(Path, sources)))
-        work = errand.of_file(source, reading.units, words, reading.options(), reading.wall)
-    wanted = errand.outlets(work, target)
-    if out is None:
-        _carry_out(work, wanted, None, count, robust=robust)
+    early = min(count, EARLY) if count > 1 and len(target) != 1 else 0
+    with Crew(early) as crew:
+        from magwire.cli import errand
+        from magwire.report import outlets
+        from magwire.scenario import load, names
+
+        if out is not None and not outlets.begun(out):  # better said before the work than after it
+            check_free(out, force=force)
+        say_if_compiling()
+        if len(sources) == 1 and (sources[0] in names() or Path(sources[0]).suffix == ".toml"):
+            reading.refuse_any()
+            refuse(
+                {
+                    "youngs-modulus": youngs_modulus,
+                    "magnetization": magnetization,
+                    "magnetized-tip": magnetized_tip,
+                }
+            )
+            work = errand.of_scenario(load(sources[0]), words)
+        else:
+            source = source_of(tuple(map(Path, sources)))
+            work = errand.of_file(source, reading.units, words, reading.options(), reading.wall)
+        wanted = errand.outlets(work, target)
+        if out is None:
+            _carry_out(work, wanted, None, count, crew, robust=robust)
+            return 0
+        again = not force and outlets.begun(out, errand.fingerprint(work))
+        with occupied(out, force=force or again):
+            if again:
+                complain(f"Taking up the plan in '{out}'.")
+            try:
+                known = outlets.taken_up(out) if again else []
+                _carry_out(work, wanted, out, count, crew, robust=robust, known=known)
+            except KeyboardInterrupt:
+                complain(f"Interrupted; the same command takes up the plan in '{out}' again.")
+                return INTERRUPTED
+        for file in outlets.files(out):
+            say(str(file))
         return 0
-    again = not force and outlets.begun(out, errand.fingerprint(work))
-    with occupied(out, force=force or again):
-        if again:
-            complain(f"Taking up the plan in '{out}'.")
-        try:
-            known = outlets.taken_up(out) if again else []
-            _carry_out(work, wanted, out, count, robust=robust, known=known)
-        except KeyboardInterrupt:
-            complain(f"Interrupted; the same command takes up the plan in '{out}' again.")
-            return INTERRUPTED
-    for file in outlets.files(out):
-        say(str(file))
-    return 0
 
 
 def _carry_out(
@@ -117,6 +124,7 @@ def _carry_out(
     names: tuple[str, ...],
     out: Path | None,
     workers: int,
+    crew: Crew,
     *,
     robust: bool,
     known: Sequence[Prospect] = (),
@@ -125,13 +133,18 @@ def _carry_out(
     for note in work.notes:
         say(note)
     done = {prospect.outlet: prospect for prospect in known}
-    _plan(work, names, out, workers, done)
+    _plan(work, names, out, workers, crew, done)
     if robust:
         _check(work, names, out, workers, done)
 
 
 def _plan(
-    work: Work, names: tuple[str, ...], out: Path | None, workers: int, done: dict[str, Prospect]
+    work: Work,
+    names: tuple[str, ...],
+    out: Path | None,
+    workers: int,
+    crew: Crew,
+    done: dict[str, Prospect],
 ) -> None:
     """Plan for the outlets; say and write each as it is done, first those of an earlier time."""
     from magwire.cli import errand
@@ -145,7 +158,7 @@ def _plan(
     left = [name for name in names if name not in done]
     with pieces(len(left)) as begin:
         begin(", ".join(left[:workers]))
-        for prospect in errand.carried_out(work, left, workers):
+        for prospect in errand.carried_out(work, left, workers, crew):
             done[prospect.outlet] = prospect
             say(outlets.row(prospect, names))
             _save(work, done, out)

@@ -41,7 +41,7 @@ def sweep(
     from magwire.errors import whole
     from magwire.many import sweep as sweeps
     from magwire.many import sweeping
-    from magwire.many.runs import cores
+    from magwire.many.children import cores
     from magwire.report import sweep as report
 
     count = whole("sweep", "workers", cores() if workers is None else workers, minimum=1)
