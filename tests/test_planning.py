@@ -425,10 +425,10 @@ def test_a_wire_that_is_guessed_to_follow_itself_is_where_it_would_be() -> None:
 
 def test_an_outlet_that_is_missed_is_planned_for_nearer_to_the_centreline_too() -> None:
     """A random vessel in which one rim after the other is followed until there is no way on."""
-    lumen, wire = vessel(7)
+    lumen, wire = vessel(21)
     (kept,) = mw.plan(lumen, wire)
     assert kept.reached
-    said = r"Planned with tip_clearance 0\.55; with 0\.4 \d\.\d+ mm are left\."
+    said = r"Planned with tip_clearance 0\.7; with 0\.4 \d\.\d+ mm are left\."
     assert re.fullmatch(said, kept.reason)
 
 
