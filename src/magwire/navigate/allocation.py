@@ -241,7 +241,7 @@ class AllocatingNavigator:
         start = plant.snapshot()
         plant.inputs = weak * found
         settled = plant.settle(self._system.step_limits())[0] is Status.CONVERGED
-        if settled and direct.cheapen():
+        if settled and direct.improve(plant.inputs, np.full(len(found), FREE)):
             less = plant.inputs / weak
             if self._prices @ less**2 < self._prices @ found**2:
                 return less

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import product
-from typing import NamedTuple
 
 import daqp
 import numpy as np
@@ -21,7 +20,7 @@ from numpy.typing import NDArray
 
 from magwire.actuate import Actuator, Magnet
 from magwire.engine.command import Drive
-from magwire.engine.plant import Plant, Snapshot
+from magwire.engine.plant import Plant
 from magwire.engine.status import Status
 from magwire.engine.system import System
 from magwire.kernels.linearise import new_linear, steadiness
@@ -33,7 +32,10 @@ from magwire.navigate.programme import NORMALS
 
 Array = NDArray[np.float64]
 
+ROUNDS = 20  # programmes at a feed, at most
 TRUST = 0.3  # largest change of an input in a programme, in its unit
+LEAST_TRUST = 3e-3
+SETTLED = 3e-3  # programmes end when no input changes by more, in its unit
 PROBE = 2e-3  # change of an input for its derivatives, in its unit
 PENALTY = 300.0  # price of missing a constraint
 FORBIDDEN = 1e4  # price of coming too near to the vessel
@@ -47,32 +49,6 @@ ALONG = 401  # points of the vessel that are looked at
 LEAST = {"A": 0.1, "T": 1e-3, "T/m": 1e-2}  # of an input that counts as one, by its unit
 AT = 1e-6  # of a limit, within which an input is at it
 FREE = 1e30
-
-
-class Search(NamedTuple):
-    """How far to go on with programmes.
-
-    Attributes
-    ----------
-    rounds
-        Programmes at a feed, at most.
-    least
-        Change of an input, in its unit, below which the search ends.
-    loose
-        Part of the radius, or of the margin, that may be missed on the way for nothing: steps along
-        a curved edge miss it by the square of their length, and would all be refused otherwise.
-    sides
-        Whether the room is the polygon that programmes know. They go to its corners, which a round
-        room refuses; the detours of a magnet were found with a round one, and need it.
-    """
-
-    rounds: int
-    least: float
-    loose: float
-    sides: bool
-
-
-CURRENTS, POSES = Search(60, 3e-4, 0.02, sides=True), Search(20, 3e-3, 0.0, sides=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,9 +103,6 @@ class Direct:
         self._least = np.array([LEAST.get(one.unit, 1.0) for one in inputs])
         self._vessel = curve.at(np.linspace(0.0, curve.length, ALONG))
         self._trust, self._scale = TRUST, 1.0
-        self._search = CURRENTS if bool(self._currents.all()) else POSES
-        self._learned: Array | float = 0.0  # slopes of the conditions that steps have shown
-        self._conceded = 0.0, 0.0  # what of offset and eigenvalue may be missed all the same
         self._stretch = np.array([TURN if one.unit == "" else STRETCH for one in inputs])
         self.weak = demands.weakening if bool(self._currents.all()) else 1.0
 
@@ -141,17 +114,6 @@ class Direct:
         course = np.linspace(plant.feed, feed, steps + 1)[1:]
         still = np.tile(plant.inputs, (steps, 1))
         return plant.advance(Drive(course, np.zeros(steps), still, 1.0, inertia=False)) == steps
-
-    def cheapen(self) -> bool:
-        """Go to currents of least power that miss no more than those that there are; if so."""
-        here = self.look()
-        if here is None:
-            return False
-        self._conceded = self._misses(here)
-        u = self.plant.inputs
-        found = self.improve(u, np.full(len(u), FREE))
-        self._conceded = 0.0, 0.0
-        return found
 
     def improve(self, before: Array, reach: Array, towards: Array | None = None) -> bool:
         """Go to the inputs of least cost at this feed; whether they do what is asked for.
@@ -175,58 +137,26 @@ class Direct:
         spent = float(self._prices @ np.where(self._currents, plant.inputs, 0.0) ** 2)
         self._scale = max(spent, float(np.max(self._prices * self._least**2)))
         self._trust = max(self._trust, 0.1 * TRUST)
-        way = self._descent(here, home, (before - reach, before + reach))
-        for sight, snapshot in reversed(way):  # the last ones may not stand coils that are off
-            plant.restore(snapshot)
-            if self.meets(sight):
-                return True
-        plant.restore(way[-1][1])
-        return False
-
-    def _descent(
-        self, here: Sight, home: Array, bounds: tuple[Array, Array]
-    ) -> list[tuple[Sight, Snapshot]]:
-        """Equilibria on the way to the least cost, each better than the one before."""
-        plant, search = self.plant, self._search
-        way = [(here, plant.snapshot())]
-        for _ in range(search.rounds):
-            here, start = way[-1]
+        for _ in range(ROUNDS):
             units = self._units()
-            conditions = self._conditions(here, units)
-            change = self._change(conditions, home, bounds, units)
+            change = self._change(here, home, (before - reach, before + reach), units)
             if change is None:
                 break
-            merit = self._merit(here, home)
+            start, merit = plant.snapshot(), self._merit(here, home)
             plant.inputs = np.clip(plant.inputs + change, self._low, self._high)
             there = self.look() if plant.settle(self._limits)[0] is Status.CONVERGED else None
             size = float(np.abs(change / units).max())
-            if there is not None and search is CURRENTS:
-                self._learn(conditions, there, plant.inputs - start.inputs, units)
             if there is None or self._merit(there, home) > merit + 1e-9:
                 plant.restore(start)
                 self._trust = 0.3 * min(size, self._trust)
-                if self._trust < search.least:
+                if self._trust < LEAST_TRUST:
                     break
                 continue
-            way.append((there, plant.snapshot()))
+            here = there
             self._trust = min(TRUST, max(2.0 * size, self._trust))
-            if size < search.least:
+            if size < SETTLED:
                 break
-        return way
-
-    def _learn(
-        self, conditions: tuple[Array, Array], there: Sight, change: Array, units: Array
-    ) -> None:
-        """Take up what conditions changed by otherwise than they were expected to (Broyden).
-
-        How far the tip gives way to coils that are off changes, too, and fast where the field
-        along it points against the magnet: that is not in their slopes.
-        """
-        rows, upper = conditions
-        count = len(change)
-        missed = upper - self._conditions(there, units)[1] - rows[:, :count] @ (change / units)
-        paid = self._prices * change
-        self._learned = self._learned + np.outer(missed, paid / (paid @ change))
+        return self.meets(here)
 
     def meets(self, sight: Sight) -> bool:
         """Whether an equilibrium does what is asked for, or misses it by little."""
@@ -349,9 +279,9 @@ class Direct:
     def _misses(self, sight: Sight) -> tuple[float, float]:
         """By how much offset and eigenvalue miss what is asked for, over radius and margin."""
         strong = self.plant.inputs * (1.0 / self.weak - 1.0) if self.weak < 1.0 else None
-        over = self._far(sight.offset) - self._wider(sight.radius)
+        over = float(np.linalg.norm(sight.offset)) - self._wider(sight.radius)
         planned = sight.offset + (0.0 if strong is None else sight.offset_by_input @ strong)
-        over = max(over, self._far(planned) - self._room(sight.radius))
+        over = max(over, float(np.linalg.norm(planned)) - self._room(sight.radius))
         margin, value = self.demands.stability_margin, sight.eigenvalue
         if self.demands.gain_tolerance > 0.0:
             farther = self._off(NORMALS @ sight.offset_by_input) @ self.plant.inputs
@@ -360,17 +290,7 @@ class Direct:
             more = 0.0 if strong is None else float(sight.eigenvalue_by_input @ strong)
             less = float((self._off(-sight.eigenvalue_by_input[None]) @ self.plant.inputs)[0])
             value = min(value, value + more - less)
-        more_over, more_under = self._conceded
-        return (
-            max(0.0, over / sight.radius - more_over),
-            max(0.0, 1.0 - value / margin - more_under),
-        )
-
-    def _far(self, offset: Array) -> float:
-        """How far the tip is off the centreline, as the programmes have it for currents [m]."""
-        if self._search.sides:
-            return float((NORMALS @ offset).max())
-        return float(np.linalg.norm(offset))
+        return max(0.0, over / sight.radius), max(0.0, 1.0 - value / margin)
 
     def _off(self, rows: Array) -> Array:
         """By what to multiply inputs for what rows . inputs gain by their errors at most.
@@ -385,7 +305,6 @@ class Direct:
     def _merit(self, sight: Sight, home: Array) -> float:
         over, under = self._misses(sight)
         close = max(0.0, SPARE - self.spare(self.plant.inputs)) / STRETCH
-        over, under = (max(0.0, one - self._search.loose) for one in (over, under))
         missed = PENALTY * (over + under) + FORBIDDEN * close
         return self.cost(self.plant.inputs, home) + missed
 
@@ -412,11 +331,7 @@ class Direct:
         return 0.5 * spent / self._scale + 0.5 * float(way @ way)
 
     def _change(
-        self,
-        conditions: tuple[Array, Array],
-        home: Array,
-        bounds: tuple[Array, Array],
-        units: Array,
+        self, sight: Sight, home: Array, bounds: tuple[Array, Array], units: Array
     ) -> Array | None:
         """The change of the inputs that the next programme wants; None if it finds none.
 
@@ -427,7 +342,7 @@ class Direct:
         slope = np.where(
             self._currents, self._prices * units * u / self._scale, (u - home) / self._stretch
         )
-        rows, upper = conditions
+        rows, upper = self._conditions(sight, units)
         low = np.maximum(np.maximum(self._low * self.weak - u, bounds[0] - u) / units, -FREE)
         high = np.minimum(np.minimum(self._high * self.weak - u, bounds[1] - u) / units, FREE)
         low, high = np.maximum(low, -self._trust), np.minimum(high, self._trust)
@@ -468,8 +383,7 @@ class Direct:
             room = np.concatenate([room, left])
             spare = np.append(spare, spare - (part - 1.0) * (fading @ u) - slower @ u)
             grows = np.vstack([grows, (part * fading + slower) * units])
-        room, spare = room + self._conceded[0], spare + self._conceded[1]
-        rows = np.vstack([sides, grows]) + self._learned * units
+        rows = np.vstack([sides, grows])
         misses = np.zeros((len(rows), 2))
         misses[: len(sides), 0] = misses[len(sides) :, 1] = -1.0
         rows, upper = np.hstack([rows, misses]), np.concatenate([room, spare])
