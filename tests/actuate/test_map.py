@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from scipy.io import netcdf_file
 
 from magwire.actuate import FieldGrid, Helmholtz, Input, Map, Pair, Pose
@@ -110,6 +111,30 @@ def test_files(tmp_path: Path, name: str, write: object) -> None:
     np.testing.assert_allclose(found.step, STEP, rtol=1e-12)
 
 
+def stored(grid: FieldGrid) -> xr.Dataset:
+    axes = {a: FIRST[i] + STEP[i] * np.arange(SHAPE[i]) for i, a in enumerate("xyz")}
+    flux = {f"B{a}": (("x", "y", "z"), grid.values[..., i]) for i, a in enumerate("xyz")}
+    return xr.Dataset(flux, coords=axes)
+
+
+def test_netcdf_as_xarray_writes_it(tmp_path: Path) -> None:
+    """Version 4; and in numbers that stand for others, which nothing in the field would tell."""
+    grid = sampled()
+    data = stored(grid)
+    data.to_netcdf(tmp_path / "b.nc", engine="h5netcdf")
+    found = read_grid(tmp_path / "b.nc")
+    assert np.array_equal(found.values, grid.values)
+    np.testing.assert_allclose(found.step, STEP, rtol=1e-12)
+    packed = {name: {"dtype": "float32", "scale_factor": 0.5} for name in ("Bx", "By", "Bz")}
+    for engine, form in (("h5netcdf", None), ("scipy", "NETCDF3_CLASSIC")):
+        data.to_netcdf(tmp_path / "p.nc", engine=engine, format=form, encoding=packed)  # type: ignore[call-overload]
+        with pytest.raises(InputError, match="received some with a scale_factor"):
+            read_grid(tmp_path / "p.nc")
+    data.rename(x="u").to_netcdf(tmp_path / "u.nc", engine="h5netcdf")
+    with pytest.raises(InputError, match="must be NetCDF with the variables x, y, z"):
+        read_grid(tmp_path / "u.nc")
+
+
 def test_an_image_as_vtk_writes_it(tmp_path: Path) -> None:
     """With the range of its norms inside of the array, and other arrays beside it."""
     vtk = pytest.importorskip("vtk")
@@ -210,8 +235,8 @@ def test_a_turned_image_is_refused(tmp_path: Path) -> None:
             "x are not evenly spaced",
         ),
         ("b.csv", "x,y,z,Bx,By,Bz\n0,0,0,1,1,1\n1,1,1,1,1,1\n", "6 points have none"),
-        ("b.nc", "nothing", "must be NetCDF-3"),
-        ("b.nc", "\x89HDF", "received NetCDF-4, which is HDF5: write it with"),
+        ("b.nc", "nothing", "must be NetCDF with the variables x, y, z, Bx, By, Bz"),
+        ("b.nc", "\x89HDF", "must be NetCDF with the variables x, y, z, Bx, By, Bz"),
         ("b.vti", "<VTKFile/>", "must be a VTK image"),
     ],
 )

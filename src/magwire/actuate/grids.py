@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from magwire.actuate.image import read_image
+from magwire.actuate.netcdf import read_netcdf
 from magwire.errors import InputError, array, described
 from magwire.files import read_bytes
 
@@ -21,7 +20,6 @@ ROUNDING = 1e-4
 """Positions may be off their place on the grid by this share of its step."""
 WIDEST = 10.0
 """Side of a field around a wire [m], beyond which its unit is another one: a guard, no limit."""
-HDF = b"\x89HDF"
 PICKLED = (".pkl", ".pickle", ".npy", ".npz", ".joblib", ".dill")
 
 
@@ -74,9 +72,9 @@ def read_grid(path: str | Path) -> FieldGrid:
     ----------
     path
         .csv: columns x, y, z [m] and Bx, By, Bz [T], with their names in the first row, points in
-        any order; .nc: NetCDF-3 with variables x, y, z [m] and Bx, By, Bz [T] over them; .vti: a
-        VTK image in ASCII, with one array of three components [T] over its points, origin and
-        spacing [m], its axes along x, y and z.
+        any order; .nc: NetCDF, 3 or 4, with variables x, y, z [m] and Bx, By, Bz [T] over them;
+        .vti: a VTK image in ASCII, with one array of three components [T] over its points, origin
+        and spacing [m], its axes along x, y and z.
 
     Raises
     ------
@@ -176,29 +174,7 @@ def _csv(data: bytes, name: str) -> FieldGrid:
 
 
 def _netcdf(data: bytes, name: str) -> FieldGrid:
-    from scipy.io import netcdf_file
-
-    if data.startswith(HDF):
-        raise InputError(
-            f"{name} must be NetCDF-3; received NetCDF-4, which is HDF5: write it with xarray's "
-            'format="NETCDF3_64BIT", or by nccopy -k classic.'
-        )
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            file = netcdf_file(io.BytesIO(data), "r", mmap=False)
-            axes = [np.array(file.variables[a][:], dtype=np.float64) for a in "xyz"]
-            flux = [np.array(file.variables[f"B{c}"][:], dtype=np.float64) for c in "xyz"]
-            order = [file.variables[f"B{c}"].dimensions for c in "xyz"]
-    except Exception:  # a broken file may raise anything in there
-        raise InputError(
-            f"{name} must be NetCDF-3 with the variables x, y, z, Bx, By and Bz."
-        ) from None
-    if any(set(dims) != {"x", "y", "z"} for dims in order):
-        raise InputError(f"{name} must have Bx, By and Bz over the dimensions x, y and z.")
-    turned = [b.transpose([d.index(a) for a in "xyz"]) for b, d in zip(flux, order, strict=True)]
-    points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
-    return regular(points, np.stack(turned, axis=-1).reshape(-1, 3), name)
+    return regular(*read_netcdf(data, name), name)
 
 
 def _image(data: bytes, name: str) -> FieldGrid:
