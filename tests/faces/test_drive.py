@@ -475,7 +475,8 @@ def test_keys_drive_the_wire_and_it_is_seen(chromium: Any, tmp_path: Path) -> No
     served = Served(tmp_path, simulation(), limit=1e-3)
     shown = Opened(chromium(), served)
     words = shown.page.locator(".status")
-    assert words.inner_text() == "Hold ↑ to feed the wire; F has the navigator steer."
+    hint = "Hold ↑ to feed the wire; F has the navigator steer."  # once a busy machine keeps up
+    shown.until(f"document.querySelector('.status').textContent === '{hint}'")
     limit = shown.page.locator(".limit")
     for absurd in ("-3", "0", "1e99", ""):
         limit.fill(absurd)

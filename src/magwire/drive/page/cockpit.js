@@ -262,8 +262,8 @@
       else if (!this.connected) [text, level] = ["The connection to the server is lost; the wire has stopped. Trying again …", "bad"];
       else if (role && !role.drives) [text, level] = [role.free ? "Nobody drives." : "Another page drives; this one looks on.", "watch"];
       else if (picture?.message) [text, level] = [picture.message, "bad"];
-      else if (picture && picture.rate > 0 && picture.rate < SLOW) [text, level] = [`The clock is slowed to ${picture.rate.toFixed(2)}: this machine cannot keep up. No step is left out.`, "watch"];
       else if (this.said_ && performance.now() - this.saidAt < 4000) [text, level] = [this.said_, "bad"];
+      else if (picture && picture.rate > 0 && picture.rate < SLOW) [text, level] = [`The clock is slowed to ${picture.rate.toFixed(2)}: this machine cannot keep up. No step is left out.`, "watch"];
       else if (picture && role?.drives && !this.begun && picture.feed === 0) text = this.world.noHelp ? "Hold ↑ to feed the wire." : "Hold ↑ to feed the wire; F has the navigator steer.";
       const line = this.find(".status");
       if (line.textContent !== text) line.textContent = text;
